@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: the world's light: a colour times an equirectangular image with mip levels.
+
+#include "lib/math.glsl"
+
+uniform sampler2D u_env;
+uniform vec3 u_world_radiance;
+uniform mat3 u_env_from_world;
+uniform bool u_has_env;
+
+// Radiance from unit direction d, averaged over a cone of that half angle's tangent.
+vec3 world_radiance(vec3 d, float tan_half_angle)
+{
+    if (!u_has_env)
+        return u_world_radiance;
+    vec3 e = u_env_from_world * d;
+    vec2 uv = vec2(0.5 - atan(e.y, e.x) / (2.0 * PI), 0.5 + asin(clamp(e.z, -1.0, 1.0)) / PI);
+    float texels = 2.0 * tan_half_angle / PI * float(textureSize(u_env, 0).y);
+    return u_world_radiance * textureLod(u_env, uv, log2(max(texels, 1.0))).rgb;
+}

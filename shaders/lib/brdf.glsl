@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: the microfacet terms of the thesis: GGX, Schlick, Cook-Torrance. All cosines are positive.
+
+#include "lib/math.glsl"
+
+// Distribution of microfacet normals [Walter07], alpha = roughness^2.
+float d_ggx(float NoH, float alpha)
+{
+    float a2 = alpha * alpha;
+    float k = NoH * NoH * (a2 - 1.0) + 1.0;
+    return a2 / (PI * k * k);
+}
+
+// Reflectance at the angle whose cosine is VoH [Schlick94].
+vec3 f_schlick(vec3 f0, float VoH)
+{
+    float m = clamp(1.0 - VoH, 0.0, 1.0);
+    return f0 + (1.0 - f0) * (m * m * m * m * m);
+}
+
+// Shadowing and masking of V-shaped grooves [CookTorrance82].
+float g_cook_torrance(float NoH, float NoV, float NoL, float VoH)
+{
+    return min(1.0, 2.0 * NoH * min(NoV, NoL) / max(VoH, 1e-6));
+}
+
+// f = D F G / (4 NoL NoV) [sr^-1]
+vec3 microfacet_brdf(vec3 f0, float alpha, float NoH, float NoV, float NoL, float VoH)
+{
+    return d_ggx(NoH, alpha) * f_schlick(f0, VoH) * (g_cook_torrance(NoH, NoV, NoL, VoH) / (4.0 * NoL * NoV));
+}
+
+// Reflectance of a GGX surface under uniform light, f0 * x + y: a fit to the integral [Karis13].
+vec2 environment_brdf(float roughness, float NoV)
+{
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * NoV)) * r.x + r.y;
+    return vec2(-1.04, 1.04) * a + r.zw;
+}
+
+// Reflectance at normal incidence of a dielectric of that index of refraction.
+float f0_of_ior(float ior)
+{
+    float r = (ior - 1.0) / (ior + 1.0);
+    return r * r;
+}

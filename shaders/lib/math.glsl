@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: constants, unit vectors in 32 bits, frames, quasi-random numbers.
+
+const float PI = 3.14159265358979;
+
+// Octahedral unit vector as two 16-bit signed normals [Meyer10]; within 1e-4 of the original.
+uint pack_unit(vec3 v)
+{
+    v /= abs(v.x) + abs(v.y) + abs(v.z);
+    vec2 folded = (1.0 - abs(v.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(v.xy, vec2(0.0)));
+    return packSnorm2x16(v.z < 0.0 ? folded : v.xy);
+}
+
+vec3 unpack_unit(uint bits)
+{
+    vec2 p = unpackSnorm2x16(bits);
+    vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    float fold = max(-v.z, 0.0);
+    v.xy -= mix(vec2(-fold), vec2(fold), greaterThanEqual(v.xy, vec2(0.0)));
+    return normalize(v);
+}
+
+// Tangent and bitangent of the unit vector n, right-handed, continuous but for n.z = 0 [Duff17].
+mat3 frame_of(vec3 n)
+{
+    float s = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
+}
+
+// A permuted congruential hash [Jarzynski20].
+uint hash(uint x)
+{
+    x = x * 747796405u + 2891336453u;
+    x = ((x >> ((x >> 28u) + 4u)) ^ x) * 277803737u;
+    return (x >> 22u) ^ x;
+}
+
+// Point number i of the R2 sequence [Roberts18], shifted by the hash of `seed`, in [0, 1)^2. Exact integer arithmetic.
+vec2 r2_point(uint i, uint seed)
+{
+    uvec2 shift = uvec2(hash(seed), hash(seed ^ 0x9e3779b9u));
+    uvec2 p = shift + i * uvec2(3242174889u, 2447445414u);
+    return vec2(p >> 8u) / 16777216.0;
+}
+
+// Uniform on the unit disk, area preserving and without seams [Shirley97].
+vec2 disk_point(vec2 u)
+{
+    vec2 p = 2.0 * u - 1.0;
+    if (p.x == 0.0 && p.y == 0.0)
+        return vec2(0.0);
+    bool wide = abs(p.x) > abs(p.y);
+    float r = wide ? p.x : p.y;
+    float phi = wide ? PI / 4.0 * p.y / p.x : PI / 2.0 - PI / 4.0 * p.x / p.y;
+    return r * vec2(cos(phi), sin(phi));
+}
+
+// Pixel of invocation i: the picture in tiles of 8 by 8, so that neighbours work on the same things.
+ivec2 tiled_pixel(uint i, ivec2 size)
+{
+    uint tiles_x = uint(size.x + 7) / 8u, tile = i / 64u;
+    return ivec2(tile % tiles_x, tile / tiles_x) * 8 + ivec2(i % 8u, i / 8u % 8u);
+}

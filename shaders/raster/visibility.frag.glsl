@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose:    which triangle is seen, and where on it; all else is fetched later, once a pixel.
+// In:         instance, triangle, barycentrics
+// Out:        instance + 1 (0: nothing), triangle, barycentrics of the second and third corner as float bits
+// Invocation: one fragment; cut-outs by alpha are decided by a random number a sample, whose mean is the blend
+
+#include "bind/geometry.glsl"
+#include "bind/materials.glsl"
+
+const bool HAS_ALPHA = false;
+const bool HAS_TEXTURES = false;
+
+uniform uint u_sample;
+
+flat in uvec2 v_instance_triangle;
+in vec2 v_bary;
+
+layout(location = 0) out uvec4 o_visibility;
+
+void main()
+{
+    uint instance = v_instance_triangle.x, triangle = v_instance_triangle.y;
+    if (HAS_ALPHA) {
+        vec2 uv = HAS_TEXTURES ? uv_at(triangle, v_bary) : vec2(0.0);
+        uvec2 pixel = uvec2(gl_FragCoord.xy);
+        uint seed = hash(pixel.x + hash(pixel.y + hash(instance ^ hash(triangle))));
+        if (alpha_at(material_of(instance, triangle), uv, HAS_TEXTURES) <= r2_point(u_sample, seed).x)
+            discard;
+    }
+    o_visibility = uvec4(instance + 1u, triangle, floatBitsToUint(v_bary));
+}

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A standalone OpenGL 4.3 context, apart from whatever Blender draws with."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import moderngl
+
+from ..errors import GpuError
+
+REQUIRED = 430
+_HELP = {"linux": "install the graphics driver, or Mesa's software renderer: apt-get install libegl1 libgl1 libgl1-mesa-dri",
+         "win32": "install the graphics card's driver"}
+
+
+def create_context() -> moderngl.Context:
+    """A new context, current on the calling thread. GpuError says what was found and what to install."""
+    try:
+        return _create(REQUIRED)
+    except Exception as error:  # glcontext raises bare Exception for every reason there is
+        raise GpuError(f"OpenGL 4.3 is needed, {_found(error)}; {_HELP.get(sys.platform, 'this system is not supported')}") from error
+
+
+def _create(require: int) -> moderngl.Context:
+    options: dict[str, Any] = {"standalone": True, "require": require}
+    if sys.platform.startswith("linux"):
+        # Named in full: the search for libraries needs a compiler or ldconfig, which a small system lacks
+        options |= {"backend": "egl", "libgl": "libGL.so.1", "libegl": "libEGL.so.1"}
+    return moderngl.create_context(**options)
+
+
+def _found(error: Exception) -> str:
+    """What there is instead of OpenGL 4.3."""
+    try:
+        context = _create(330)
+    except Exception:  # as above
+        return f"but no OpenGL context could be made ({error})"
+    renderer, version = context.info["GL_RENDERER"], context.info["GL_VERSION"]
+    context.release()
+    return f"but {renderer} offers only {version}"

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lifetimes. Every OpenGL object belongs to a GpuScope, which made it and releases it; nothing waits for a collector."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from typing import TYPE_CHECKING, Any
+
+import moderngl
+import numpy as np
+
+from ..errors import GpuError
+
+if TYPE_CHECKING:
+    from .device import Device
+
+_BYTES = {"f1": 1, "f2": 2, "f4": 4, "u1": 1, "i1": 1, "u4": 4, "i4": 4}
+
+
+class GpuScope:
+    """Owns OpenGL objects; `close()` releases them, latest first. Used on the device's own thread alone."""
+
+    def __init__(self, device: Device) -> None:
+        self.device = device
+        self.n_bytes = 0
+        self.n_objects = 0
+        self._stack = ExitStack()
+        device.scopes.add(self)
+
+    def __enter__(self) -> GpuScope:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Release all that was made here; the scope is empty afterwards and may be filled again."""
+        self._stack.close()
+        self.n_bytes = self.n_objects = 0
+        self.device.scopes.discard(self)
+
+    def buffer(self, label: str, data: np.ndarray | int, clear: bool = False) -> moderngl.Buffer:
+        """A storage buffer that holds `data`, or that many bytes: zeros if `clear`, else anything. GpuError past the limit."""
+        n_bytes = data if isinstance(data, int) else data.nbytes
+        limit = self.device.limits["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]
+        if n_bytes > limit:
+            raise GpuError(f"Buffer '{label}' needs {_mib(n_bytes)}, the device allows {_mib(limit)} (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)")
+        ctx = self.device.ctx
+        if isinstance(data, np.ndarray) and n_bytes:
+            made = self._make(label, n_bytes, lambda: ctx.buffer(np.ascontiguousarray(data).tobytes()))
+        else:  # a storage block without a byte cannot be bound
+            made = self._make(label, n_bytes, lambda: ctx.buffer(reserve=max(n_bytes, 16)))
+        if clear:
+            made.clear()
+        return made
+
+    def texture(self, label: str, size: tuple[int, int], components: int, dtype: str,
+                data: np.ndarray | None = None) -> moderngl.Texture:
+        """A 2D texture, nearest filter, clamped. dtype as in moderngl: f1 f2 f4 u1 u4 i4 ..."""
+        largest = self.device.limits["GL_MAX_TEXTURE_SIZE"]
+        if max(size) > largest:
+            raise GpuError(f"Texture '{label}' is {size[0]}x{size[1]} pixels, the device allows {largest} (GL_MAX_TEXTURE_SIZE)")
+        raw = None if data is None else np.ascontiguousarray(data).tobytes()
+        made = self._make(label, size[0] * size[1] * components * _BYTES[dtype],
+                          lambda: self.device.ctx.texture(size, components, raw, dtype=dtype, alignment=1))
+        made.filter = moderngl.NEAREST, moderngl.NEAREST
+        made.repeat_x = made.repeat_y = False
+        return made
+
+    def texture3d(self, label: str, n: int, components: int, dtype: str) -> moderngl.Texture3D:
+        """A cube of n^3 texels, zeros, clamped, linear filter with mip levels once `build_mipmaps` was called."""
+        n_bytes = n**3 * components * _BYTES[dtype]
+        made = self._make(label, n_bytes * 8 // 7,
+                          lambda: self.device.ctx.texture3d((n, n, n), components, bytes(n_bytes), dtype=dtype, alignment=1))
+        made.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+        made.repeat_x = made.repeat_y = made.repeat_z = False
+        return made
+
+    def framebuffer(self, label: str, colors: list[moderngl.Texture], with_depth: bool) -> moderngl.Framebuffer:
+        """A framebuffer over `colors`, with a 32-bit depth buffer of its own if `with_depth`."""
+        depth = None
+        if with_depth:
+            size = colors[0].size
+            depth = self._make(f"{label} depth", size[0] * size[1] * 4, lambda: self.device.ctx.depth_renderbuffer(size))
+        return self._make(label, 0, lambda: self.device.ctx.framebuffer(colors, depth))
+
+    def _make(self, label: str, n_bytes: int, create: Any) -> Any:
+        try:
+            made = create()
+        except (moderngl.Error, MemoryError) as error:
+            raise GpuError(f"The device could not make '{label}' of {_mib(n_bytes)}: {error}") from error
+        if self.device.ctx.supports_labels:
+            made.label = label
+        self._stack.callback(made.release)
+        self.n_bytes += n_bytes
+        self.n_objects += 1
+        return made
+
+
+def _mib(n_bytes: int) -> str:
+    return f"{n_bytes / 2**20:.1f} MiB"

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""GBuffer and LitVoxels -> Incident: the light that arrives at each pixel, by cones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tan
+from typing import Any
+
+from ..gpu.device import Device
+from ..gpu.passes import Pass
+from ..gpu.scope import GpuScope
+from ..settings import RenderSettings
+from .light import LitVoxels
+from .raster import GBuffer
+from .upload import GpuScene
+from .voxelize import GEOMETRY, GRID, MATERIALS
+
+WORLD = ("u_world_radiance", "u_env_from_world", "u_has_env")
+CAMERA = ("u_world_from_clip", "u_size")
+PLANES = ("u_irradiance_direct", "u_irradiance_indirect", "u_specular")
+
+CONES = Pass(("gather/cones.comp.glsl",), (*GEOMETRY, *MATERIALS, "Lights"),
+             textures=("u_visibility", "u_env", "u_radiance"), images=PLANES,
+             uniforms=(*CAMERA, *WORLD, *GRID, "u_cone_offset", "u_cone_step", "u_cone_distance", "u_sample", "u_seed",
+                       "u_ring_angle", "u_tan_half_aperture", "u_tan_half_shadow", "u_specular_cone"))
+
+
+@dataclass(frozen=True, eq=False)
+class Incident:
+    """planes: textures f4 by the names of PLANES: irradiance [W m^-2], and specular radiance towards the eye."""
+
+    scope: GpuScope
+    planes: dict[str, Any]
+
+
+def make_incident(device: Device, size: tuple[int, int]) -> Incident:
+    """Textures for pictures of `size` pixels."""
+    scope = device.scope()
+    return Incident(scope, {name: scope.texture(name, size, 4, "f4") for name in PLANES})
+
+
+def gather(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: GBuffer, incident: Incident,
+           settings: RenderSettings, sample: int) -> None:
+    """Fill `incident` for one sample by cone tracing."""
+    grid = lit.voxels.grid
+    constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "HAS_TEXTURES": gpu_scene.has_textures,
+                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_SPECULAR": gpu_scene.has_specular}
+    device.dispatch(
+        CONES, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
+        **gbuffer.uniforms(), **grid.uniforms(), **incident.planes, Lights=gpu_scene.lights, u_radiance=lit.radiance,
+        u_cone_offset=settings.cone_offset, u_cone_step=settings.cone_step,
+        u_cone_distance=settings.cone_distance * grid.n, u_sample=sample, u_seed=settings.seed,
+        u_ring_angle=settings.cone_ring_angle, u_tan_half_aperture=tan(settings.cone_aperture / 2),
+        u_tan_half_shadow=tan(settings.shadow_aperture / 2), u_specular_cone=settings.specular_cone)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Voxels -> LitVoxels: direct light in every occupied voxel, then mip levels for the cones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..gpu.device import Device
+from ..gpu.passes import Pass
+from ..gpu.scope import GpuScope
+from ..scene.types import View
+from ..settings import RenderSettings
+from .upload import GpuScene
+from .voxelize import GRID, Voxels
+
+INJECT = Pass(("light/inject.comp.glsl",), ("Occupancy", "Voxels", "Lights"), images=("u_radiance",),
+              uniforms=(*GRID, "u_eye", "u_ambient", "u_specular", "u_shininess"))
+
+
+@dataclass(frozen=True, eq=False)
+class LitVoxels:
+    """radiance: 3D texture f2 of n^3, rgb outgoing radiance times opacity, a opacity, all mip levels."""
+
+    scope: GpuScope
+    voxels: Voxels
+    radiance: Any
+
+
+class Injection(NamedTuple):
+    """The settings of this stage, and no others: whatever else changes, the light in the voxels stays.
+
+    eye  metres relative to the scene's centre; the origin when no highlight is stored, since nothing else depends on it
+    """
+
+    points: int
+    ambient: float
+    specular: float
+    shininess: float
+    eye: tuple[float, float, float]
+
+
+def injection_of(settings: RenderSettings, gpu_scene: GpuScene, view: View) -> Injection:
+    """The part of the settings and the view that the light in the voxels depends on."""
+    eye = view.world_from_view[:3, 3] - gpu_scene.centre_ws if settings.injection_specular else np.zeros(3)
+    return Injection(settings.injection_samples, settings.injection_ambient, settings.injection_specular,
+                     settings.injection_shininess, (float(eye[0]), float(eye[1]), float(eye[2])))
+
+
+def light(device: Device, gpu_scene: GpuScene, voxels: Voxels, injection: Injection) -> LitVoxels:
+    """Light the voxels."""
+    scope = device.scope()
+    radiance = scope.texture3d("radiance", voxels.grid.n, 4, "f2")
+    constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "LIGHT_POINTS": injection.points}
+    device.dispatch(INJECT, voxels.n_voxels, constants, Occupancy=voxels.occupancy, Voxels=voxels.voxels,
+                    Lights=gpu_scene.lights, u_radiance=radiance, **voxels.grid.uniforms(), u_eye=injection.eye,
+                    u_ambient=injection.ambient, u_specular=injection.specular, u_shininess=injection.shininess)
+    with device.profiler.gpu("light/mipmap"):
+        radiance.build_mipmaps()
+    return LitVoxels(scope, voxels, radiance)

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""GpuScene and View -> GBuffer: which triangle each pixel sees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..gpu.device import Device
+from ..gpu.passes import Pass
+from ..gpu.scope import GpuScope
+from ..scene.types import View
+from ..settings import RenderSettings
+from .pixel_filter import jitter
+from .upload import GpuScene
+from .voxelize import GEOMETRY, MATERIALS
+
+VISIBILITY = Pass(("raster/visibility.vert.glsl", "raster/visibility.frag.glsl"), (*GEOMETRY, *MATERIALS),
+                  uniforms=("u_clip_from_world", "u_first_instance", "u_first_triangle", "u_sample"))
+
+
+@dataclass(frozen=True, eq=False)
+class Targets:
+    """What a picture of one size is drawn into; kept from sample to sample."""
+
+    scope: GpuScope
+    size: tuple[int, int]
+    visibility: Any
+    framebuffer: Any
+
+
+@dataclass(frozen=True, eq=False)
+class GBuffer:
+    """visibility: instance + 1 (0: nothing), triangle, barycentrics; world_from_clip (4, 4) f8, relative to the centre."""
+
+    targets: Targets
+    world_from_clip: np.ndarray
+
+    @property
+    def n_invocations(self) -> int:
+        """Invocations of a pass over all pixels in tiles of 8 by 8."""
+        width, height = self.targets.size
+        return -(-width // 8) * -(-height // 8) * 64
+
+    def uniforms(self) -> dict[str, Any]:
+        """The uniforms of bind/camera.glsl and bind/gbuffer.glsl."""
+        return {"u_visibility": self.targets.visibility, **self.camera()}
+
+    def camera(self) -> dict[str, Any]:
+        """The uniforms of bind/camera.glsl."""
+        return {"u_world_from_clip": self.world_from_clip, "u_size": self.targets.size}
+
+
+def make_targets(device: Device, size: tuple[int, int]) -> Targets:
+    """Textures for pictures of `size` pixels."""
+    scope = device.scope()
+    visibility = scope.texture("visibility", size, 4, "u4")
+    return Targets(scope, size, visibility, scope.framebuffer("visibility", [visibility], with_depth=True))
+
+
+def raster(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, settings: RenderSettings,
+           sample: int) -> GBuffer:
+    """Draw the scene for one sample, its pixel centres shifted by the pixel filter."""
+    clip_from_world = view.clip_from_view @ np.linalg.inv(view.world_from_view)
+    clip_from_world[:, 3] += clip_from_world[:, :3] @ gpu_scene.centre_ws
+    shift = np.eye(4)
+    x, y = jitter(sample, settings.seed, settings.filter_width)
+    shift[0, 3], shift[1, 3] = -2 * x / view.size[0], -2 * y / view.size[1]
+    clip_from_world = shift @ clip_from_world
+    device.clear(targets.framebuffer)
+    constants = {"HAS_ALPHA": gpu_scene.has_alpha, "HAS_TEXTURES": gpu_scene.has_textures}
+    for draw in gpu_scene.draws:
+        device.draw(VISIBILITY, targets.framebuffer, 3 * draw.n_triangles, draw.n_instances, constants,
+                    **gpu_scene.geometry, **gpu_scene.materials, u_clip_from_world=clip_from_world,
+                    u_first_instance=draw.first_instance, u_first_triangle=draw.first_triangle, u_sample=sample)
+    return GBuffer(targets, np.linalg.inv(clip_from_world))

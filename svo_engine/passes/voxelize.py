@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""GpuScene -> Voxels: every voxel that a surface touches, with the mean of what the surfaces in it look like.
+
+Conservative, by compute [Schwarz10], in five steps: mark bits, number the voxels, add integer sums, average. The same
+scene gives the same bits, because nothing depends on the order in which invocations run.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..gpu.device import Device
+from ..gpu.passes import Pass
+from ..gpu.scope import GpuScope
+from ..scene import layouts
+from .upload import GpuScene
+
+GEOMETRY = ("Instances", "Positions", "Triangles", "CornerNormals", "CornerUvs", "SlotMaterials")
+MATERIALS = ("Materials", "Textures", "Texels")
+GRID = ("u_grid_n", "u_grid_low", "u_voxels_per_metre")
+_WORK = (*GRID, "u_n_instances", "u_n_work")
+
+COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "TileFirst"), uniforms=_WORK)
+MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "TileFirst", "Occupancy"), uniforms=_WORK)
+COUNT_VOXELS = Pass(("voxelize/count_voxels.comp.glsl",), ("Occupancy", "VoxelFirst"), uniforms=GRID)
+ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
+                  (*GEOMETRY, *MATERIALS, "TileFirst", "Occupancy", "VoxelFirst", "Sums"),
+                  uniforms=(*_WORK, "u_emission_unit"))
+AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Occupancy", "VoxelFirst", "Sums", "Voxels"),
+               uniforms=(*GRID, "u_emission_unit"))
+SCAN = Pass(("voxelize/scan.comp.glsl",), ("Counts", "BlockSums"), uniforms=("u_n_counts",))
+SCAN_ADD = Pass(("voxelize/scan_add.comp.glsl",), ("Counts", "BlockSums"))
+
+PADDING = 2  # empty voxels around the scene: a filter never reads past the border
+SHIFT = 0.3819660113  # of a voxel, irrational, so that walls on round coordinates do not lie in cell borders
+SCAN_BLOCK = 2048
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A cube of n^3 cubic voxels. low: its lowest corner, metres relative to the scene's centre."""
+
+    n: int
+    low: tuple[float, float, float]
+    voxel_size: float
+
+    def uniforms(self) -> dict[str, Any]:
+        """The uniforms of bind/grid.glsl."""
+        return {"u_grid_n": self.n, "u_grid_low": self.low, "u_voxels_per_metre": 1 / self.voxel_size}
+
+
+@dataclass(frozen=True, eq=False)
+class Voxels:
+    """Occupied voxels. occupancy: a bit each, see bind/voxels.glsl; voxels: n_voxels of the layout VOXEL."""
+
+    scope: GpuScope
+    grid: Grid
+    occupancy: Any
+    voxels: Any
+    n_voxels: int
+
+
+def make_grid(extent: float, n: int) -> Grid:
+    """The grid of n voxels a side around a scene whose longest side is `extent` metres."""
+    voxel_size = extent / (n - 2 * PADDING - 1) if extent > 0 else 1.0
+    low = -(n / 2 - 0.5 + SHIFT) * voxel_size
+    return Grid(n, (low, low, low), voxel_size)
+
+
+def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
+    """Voxelize at n voxels a side, n a multiple of 4. GpuError if the voxels do not fit the device."""
+    grid, scope = make_grid(gpu_scene.extent, n), device.scope()
+    occupancy = scope.buffer("occupancy", n**3 // 8, clear=True)
+    if not gpu_scene.n_work:
+        return Voxels(scope, grid, occupancy, scope.buffer("voxels", 0), 0)
+    with device.scope() as scratch:
+        work = {**gpu_scene.geometry, **grid.uniforms(), "u_n_instances": gpu_scene.n_instances,
+                "u_n_work": gpu_scene.n_work, "TileFirst": scratch.buffer("tiles", 4 * gpu_scene.n_work)}
+        device.dispatch(COUNT, gpu_scene.n_work, **work)
+        n_tiles = scan(device, scratch, work["TileFirst"], gpu_scene.n_work)
+        device.dispatch(MARK, n_tiles, Occupancy=occupancy, **work)
+
+        n_words = n**3 // 32
+        bits = {"Occupancy": occupancy, "VoxelFirst": scratch.buffer("voxel numbers", 4 * n_words)}
+        device.dispatch(COUNT_VOXELS, n_words, **grid.uniforms(), **bits)
+        n_voxels = scan(device, scratch, bits["VoxelFirst"], n_words)
+
+        has_emission = gpu_scene.emission_unit > 0
+        constants = {"HAS_EMISSION": has_emission, "SUMS": 11 if has_emission else 8}
+        sums = scratch.buffer("voxel sums", 4 * constants["SUMS"] * n_voxels, clear=True)
+        unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
+        device.dispatch(ACCUMULATE, n_tiles, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
+                        **work, **gpu_scene.materials, **bits, **unit)
+        voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
+        device.dispatch(AVERAGE, n_words, constants, Voxels=voxels, **grid.uniforms(), **bits, **unit)
+    device.profiler.counts["voxels"] = n_voxels
+    return Voxels(scope, grid, occupancy, voxels, n_voxels)
+
+
+def scan(device: Device, scratch: GpuScope, counts: Any, n: int) -> int:
+    """Replace n counts (u4) by the sum of all before each, in place; return the sum of all."""
+    n_blocks = -(-n // SCAN_BLOCK)
+    sums = scratch.buffer("block sums", 4 * n_blocks)
+    device.dispatch(SCAN, n_blocks * 256, Counts=counts, BlockSums=sums, u_n_counts=n)
+    if n_blocks == 1:
+        return int(np.frombuffer(sums.read(4), "u4")[0])
+    total = scan(device, scratch, sums, n_blocks)
+    device.dispatch(SCAN_ADD, n, Counts=counts, BlockSums=sums)
+    return total

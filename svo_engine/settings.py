@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything a user can set, once: default, range, unit and one sentence a field. The UI and the command line read it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+from .errors import SvoError
+
+
+@dataclass(frozen=True)
+class Spec:
+    """What the UI must know of a setting beyond its default. `choices`: (identifier, label, sentence) of an enum."""
+
+    label: str
+    description: str
+    group: str
+    low: float | None = None
+    high: float | None = None
+    unit: str = ""
+    choices: tuple[tuple[str, str, str], ...] = ()
+
+
+def _setting(default: Any, label: str, description: str, group: str, **more: Any) -> Any:
+    return field(default=default, metadata={"spec": Spec(label, description, group, **more)})
+
+
+METHODS = (("cones", "Cones", "Filtered voxels gathered by cone tracing, as in the thesis: smooth, quick, approximate"),)
+RESOLUTIONS = tuple((str(n), f"{n}\u00b3", f"{n} voxels along the longest side of the scene") for n in (32, 64, 128, 256))
+VIEWS = (
+    ("combined", "Combined", "The picture"),
+    ("voxel_albedo", "Voxel Albedo", "The voxels themselves, showing the colour of their surfaces"),
+    ("voxel_normal", "Voxel Normal", "The voxels themselves, showing the direction of their surfaces as XYZ = RGB"),
+    ("voxel_radiance", "Voxel Radiance", "The voxels themselves, showing the light that they send out"),
+    ("voxel_coverage", "Voxel Coverage", "The voxels themselves, showing how much of them the surfaces fill"),
+)
+
+
+@dataclass(frozen=True)
+class RenderSettings:
+    """One render's settings. Angles in radians, lengths in voxels where the label says so."""
+
+    method: str = _setting("cones", "Method", "How indirect light is gathered", "Sampling", choices=METHODS)
+    samples: int = _setting(16, "Samples", "Pictures with shifted pixel centres that are averaged into the final one",
+                            "Sampling", low=1, high=65536)
+    viewport_samples: int = _setting(16, "Viewport Samples", "Samples after which a resting viewport stops", "Sampling",
+                                     low=1, high=65536)
+    time_limit: float = _setting(0.0, "Time Limit", "Seconds after which no new sample is begun; 0 means no limit",
+                                 "Sampling", low=0, high=86400, unit="s")
+    seed: int = _setting(0, "Seed", "Another number gives another pattern of noise", "Sampling", low=0, high=2**31 - 1)
+    filter_width: float = _setting(1.5, "Filter Width", "Width of the Blackman-Harris pixel filter", "Film", low=0.01,
+                                   high=10, unit="px")
+    resolution: str = _setting("128", "Resolution", "Voxels along the longest side of the scene", "Voxel Grid",
+                               choices=RESOLUTIONS)
+    view: str = _setting("combined", "View", "What the picture shows", "Debug", choices=VIEWS)
+    view_lod: int = _setting(0, "Voxel Level", "Mip level of the voxels that are shown; 0 is the finest", "Debug",
+                             low=0, high=8)
+    cone_ring_angle: float = _setting(0.7853981633974483, "Ring Angle",
+                                      "Angle between the normal and the eight diffuse cones around it", "Cones",
+                                      low=0.1, high=1.5, unit="rad")
+    cone_aperture: float = _setting(0.6283185307179586, "Diffuse Aperture", "Full opening angle of a diffuse cone",
+                                    "Cones", low=0.05, high=2.5, unit="rad")
+    cone_offset: float = _setting(1.0, "Offset", "Distance from the surface at which a cone starts", "Cones", low=0,
+                                  high=8, unit="voxels")
+    cone_step: float = _setting(0.5, "Step", "Length of a step as a part of the cone's diameter there", "Cones",
+                                low=0.1, high=2)
+    cone_distance: float = _setting(2.0, "Distance",
+                                    "Length at which a cone ends, as a part of the voxel grid's side", "Cones",
+                                    low=0.01, high=2)
+    shadow_aperture: float = _setting(0.05, "Shadow Aperture", "Full opening angle of a shadow cone", "Cones",
+                                      low=0.001, high=1, unit="rad")
+    specular_cone: bool = _setting(True, "Specular Cone", "Trace a cone along the mirror direction", "Cones")
+    injection_samples: int = _setting(4, "Light Points", "Points of each extended lamp that light a voxel",
+                                      "Light Injection", low=1, high=64)
+    injection_ambient: float = _setting(0.0, "Ambient", "Blinn-Phong's k_a: ambient light that every voxel gets",
+                                        "Light Injection", low=0, high=10)
+    injection_specular: float = _setting(0.0, "Specular",
+                                         "Blinn-Phong's k_s: view-dependent highlight stored in the voxels",
+                                         "Light Injection", low=0, high=1)
+    injection_shininess: float = _setting(32.0, "Shininess", "Blinn-Phong's exponent alpha", "Light Injection", low=1,
+                                          high=1000)
+
+    def __post_init__(self) -> None:
+        for name, spec in specs().items():
+            value = getattr(self, name)
+            if spec.choices and value not in (known := [c[0] for c in spec.choices]):
+                raise SvoError(f"Setting '{name}' is '{value}'; it can be {', '.join(known)}")
+            if spec.low is not None and spec.high is not None and not spec.low <= value <= spec.high:
+                raise SvoError(f"Setting '{name}' is {value}; it must lie between {spec.low} and {spec.high}")
+
+
+def specs() -> dict[str, Spec]:
+    """Every setting's Spec by its name, in the order of declaration."""
+    return {f.name: f.metadata["spec"] for f in fields(RenderSettings)}
+
+
+def with_text(settings: RenderSettings, name: str, text: str) -> RenderSettings:
+    """`settings` with one field read from `text`, as the command line's --set NAME=VALUE gives it; SvoError if it cannot."""
+    if name not in specs():
+        raise SvoError(f"There is no setting '{name}'; there are {', '.join(specs())}")
+    kind = type(getattr(settings, name))
+    try:
+        if kind is bool:
+            value: Any = {"true": True, "1": True, "on": True, "false": False, "0": False, "off": False}[text.lower()]
+        else:
+            value = kind(text)
+    except (ValueError, KeyError):
+        raise SvoError(f"Setting '{name}' needs a value of type {kind.__name__}, not '{text}'") from None
+    return replace(settings, **{name: value})
