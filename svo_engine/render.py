@@ -72,11 +72,11 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
 
 def _show(device: Device, kept: Kept, lit: LitVoxels, gbuffer: GBuffer, settings: RenderSettings, film: GpuFilm) -> None:
     """One sample of a debug view."""
-    if settings.view == "voxel_radiance":
-        values = lit.radiance
+    if settings.view in ("voxel_albedo", "voxel_normal"):
+        values = kept("attribute", make_attribute, device, lit.voxels, settings.view == "voxel_normal").values
     else:
-        values = kept("attribute", make_attribute, device, lit.voxels, settings.view).values
-    show_voxels(device, lit.voxels.grid, values, gbuffer, settings.view_lod, film)
+        values = lit.radiance
+    show_voxels(device, lit.voxels.grid, values, gbuffer, settings, film)
 
 
 class Session:

@@ -9,7 +9,9 @@ uniform float u_cone_step;       // part of the cone's diameter
 uniform float u_cone_distance;   // voxels
 
 // Light and opacity met in a cone. Voxel space; `d` unit. The march starts u_cone_offset voxels along the normal and as
-// many along the cone. A texel of side s has the opacity a for a path of s; over a step it is 1 - (1 - a)^(step / s).
+// many along the cone. The thesis adds the texel's opacity once a step of one voxel, however wide the cone has grown. The
+// averaged opacity a is that of one voxel of path, so over a step of s voxels it is 1 - (1 - a)^s, and the light of the
+// step follows the opacity.
 vec4 trace_cone(vec3 p, vec3 normal, vec3 d, float tan_half_angle, float t_max)
 {
     vec3 origin = p + normal * u_cone_offset;
@@ -23,7 +25,7 @@ vec4 trace_cone(vec3 p, vec3 normal, vec3 d, float tan_half_angle, float t_max)
             break;
         float length = u_cone_step * diameter;
         vec4 texel = textureLod(u_radiance, at, log2(diameter));
-        float opacity = 1.0 - pow(1.0 - min(texel.a, 0.9999), u_cone_step);
+        float opacity = 1.0 - pow(1.0 - min(texel.a, 0.9999), length);
         if (texel.a > 0.0)
             sum += (1.0 - sum.a) * vec4(texel.rgb * (opacity / texel.a), opacity);
         t += length;

@@ -17,6 +17,20 @@ uniform uint u_first;
 uniform uint u_end;
 uniform int u_lod;
 
+const bool SHADE_FACES = false;   // faces along x and y darker, so that a single colour still shows a shape
+const bool SHOW_OPACITY = false;  // a as grey instead of rgb
+const float EDGE = 0.06;          // of a texel's side, drawn darker so that texels can be told apart
+const float EDGE_SHADE = 0.6;
+
+// Darker near the edges of the face through which the ray enters; p: entry point in texel space.
+float shade(vec3 p, int axis)
+{
+    vec3 to_edge = 0.5 - abs(fract(p) - 0.5);
+    to_edge[axis] = 1.0;
+    float face = SHADE_FACES ? vec3(0.75, 0.87, 1.0)[axis] : 1.0;
+    return min(min(to_edge.x, to_edge.y), to_edge.z) < EDGE ? EDGE_SHADE * face : face;
+}
+
 // Value of the first filled texel along a ray in texel space of n^3; alpha 0 if there is none.
 vec4 first_texel(vec3 o, vec3 d, int n)
 {
@@ -26,12 +40,14 @@ vec4 first_texel(vec3 o, vec3 d, int n)
     if (t >= t_end)
         return vec4(0.0);
     ivec3 cell = clamp(ivec3(floor(o + d * t)), ivec3(0), ivec3(n - 1)), step = ivec3(sign(d));
+    int axis = enter.x > enter.y && enter.x > enter.z ? 0 : enter.y > enter.z ? 1 : 2;
     vec3 next = (vec3(cell) + vec3(greaterThan(d, vec3(0.0))) - o) * inv_d;
     while (all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(n)))) {
         vec4 value = texelFetch(u_attribute, cell, u_lod);
         if (value.a > 0.0)
-            return vec4(value.rgb / value.a, 1.0);
-        int axis = next.x < next.y && next.x < next.z ? 0 : next.y < next.z ? 1 : 2;
+            return vec4((SHOW_OPACITY ? value.aaa : value.rgb / value.a) * shade(o + d * t, axis), 1.0);
+        axis = next.x < next.y && next.x < next.z ? 0 : next.y < next.z ? 1 : 2;
+        t = next[axis];
         cell[axis] += step[axis];
         next[axis] += abs(inv_d[axis]);
     }
