@@ -13,6 +13,7 @@ help: ## List the targets
 	@sed -nE 's/^([a-z]+):.*## (.*)/\1|\2/p' Makefile | while IFS='|' read -r name text; do printf 'make %-9s%s\n' "$$name" "$$text"; done
 
 setup: $(VENV)/.libraries ## Install everything into .venv, and the system libraries when run as root
+	@echo "All that is needed is installed; make help lists what can be done with it."
 
 render: $(VENV)/.libraries ## Render a sample scene; SCENE=FILE.blend and OUT=FOLDER choose others
 	$(RUN) -m svo_engine render $(SCENE) --out $(OUT)/

@@ -74,6 +74,7 @@ def build(out: Path) -> list[Path]:
     for path in zips:
         _run(tool, "validate", "--valid-tags=", str(path))
         if stray := contents(path) - CONTENTS:
+            path.unlink()
             raise PackageError(f"{path.name} holds what is no part of the extension: {', '.join(sorted(stray))}")
     return zips
 
