@@ -28,32 +28,25 @@ bool is_occupied(ivec3 v)
     return (occupancy[address.x] >> address.y & 1u) != 0u;
 }
 
-// Distance along the ray at which it leaves the box; inv_d may be infinite.
-float box_exit(vec3 o, vec3 inv_d, vec3 low, vec3 high)
-{
-    vec3 t = max((low - o) * inv_d, (high - o) * inv_d);
-    return min(min(t.x, t.y), t.z);
-}
-
 // Does an occupied voxel lie on the ray from o along unit d within t_max? Voxel units. Empty blocks are crossed at once.
+// The ray walks in whole cells [Amanatides87]: a position that is rounded back over the border just crossed would leave
+// it there for ever.
 bool is_blocked(vec3 o, vec3 d, float t_max)
 {
     vec3 inv_d = 1.0 / mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20)));
+    ivec3 v = ivec3(floor(o));
     float t = 0.0;
-    while (t < t_max) {
-        ivec3 v = ivec3(floor(o + d * t));
-        if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, ivec3(u_grid_n))))
-            return false;
-        uvec2 address = occupancy_address(v);
-        uint block = address.x & ~1u;
-        if ((occupancy[block] | occupancy[block + 1u]) == 0u) {
-            vec3 low = vec3(v & ~3);
-            t = box_exit(o, inv_d, low, low + 4.0) + 1e-3;
-        } else if ((occupancy[address.x] >> address.y & 1u) != 0u) {
+    while (t < t_max && all(greaterThanEqual(v, ivec3(0))) && all(lessThan(v, ivec3(u_grid_n)))) {
+        if (is_occupied(v))
             return true;
-        } else {
-            t = box_exit(o, inv_d, vec3(v), vec3(v) + 1.0) + 1e-3;
-        }
+        uint block = occupancy_address(v).x & ~1u;
+        bool is_empty = (occupancy[block] | occupancy[block + 1u]) == 0u;
+        ivec3 low = is_empty ? v & ~3 : v, high = low + (is_empty ? 4 : 1);
+        vec3 leave = max((vec3(low) - o) * inv_d, (vec3(high) - o) * inv_d);
+        int axis = leave.x < leave.y && leave.x < leave.z ? 0 : leave.y < leave.z ? 1 : 2;
+        t = leave[axis];
+        v = clamp(ivec3(floor(o + d * t)), low, high - 1);
+        v[axis] = inv_d[axis] > 0.0 ? high[axis] : low[axis] - 1;
     }
     return false;
 }
