@@ -32,7 +32,7 @@ find_python() {
 # install_system PACKAGE...: Debian's names of packages
 install_system() {
   if [[ $EUID != 0 ]] || ! command -v apt-get >/dev/null; then
-    fail "system packages are missing; as root: apt-get install $* (other systems: the packages with these libraries)"
+    fail "system packages are missing (here by their Debian names); as root: apt-get install $*"
   fi
   echo "setup: apt-get install $*"
   export DEBIAN_FRONTEND=noninteractive
