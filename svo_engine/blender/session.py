@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one core Session of this process, shared by final renders, previews, viewports and comparisons."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..film import Film
+from ..render import Session
+
+# Nothing is made on the GPU before its first use, nor after `close` before the next one
+current = Session()
+
+# `Film.stats` of the last final render, with its "n_samples"
+last_stats: dict[str, Any] = {}
+
+
+def keep_stats(film: Film) -> None:
+    """Make the stats of `film` the last ones."""
+    last_stats.clear()
+    last_stats.update(film.stats, n_samples=film.n_samples)
+
+
+def close() -> None:
+    """Free the GPU."""
+    last_stats.clear()
+    current.close()
