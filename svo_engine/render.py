@@ -3,88 +3,68 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Iterator
-from typing import Any, TypeVar
+from typing import Any
 
 from .film import Film
 from .gpu.device import Device
+from .gpu.kept import Kept
 from .gpu.thread import GpuThread
 from .passes.debug import make_attribute, show_voxels
 from .passes.gather import gather, make_incident
 from .passes.light import LitVoxels, injection_of, light
-from .passes.raster import GBuffer, make_targets, raster
+from .passes.raster import make_targets, raster
 from .passes.resolve import GpuFilm, make_film, resolve
-from .passes.upload import GpuScene, upload
+from .passes.upload import upload
 from .passes.voxelize import voxelize
 from .scene.types import Scene, View
 from .settings import RenderSettings
-
-T = TypeVar("T")
-
-
-class Kept:
-    """The last result of each stage, given again while its inputs are the same; an edit redoes only what it touches."""
-
-    def __init__(self) -> None:
-        self._results: dict[str, tuple[tuple[Any, ...], Any]] = {}
-
-    def __call__(self, stage: str, make: Callable[..., T], device: Device, *inputs: Any) -> T:
-        """`make(device, *inputs)`, or its last result if all inputs are the same objects or equal values."""
-        if stage in self._results:
-            before, result = self._results[stage]
-            if len(before) == len(inputs) and all(map(_same, before, inputs)):
-                return result
-            del self._results[stage]
-            result.scope.close()
-        result = make(device, *inputs)
-        self._results[stage] = inputs, result
-        return result
-
-
-def _same(a: Any, b: Any) -> bool:
-    return a is b or (isinstance(a, (int, float, str, tuple)) and a == b)
 
 
 def render(scene: Scene, view: View, settings: RenderSettings, device: Device, kept: Kept) -> Iterator[GpuFilm]:
     """Yield the film after each sample; all in the device's own thread."""
     started = time.monotonic()
     device.profiler.reset()
-    with device.profiler.host("upload"):
-        gpu_scene = kept("upload", upload, device, scene)
-    voxels = kept("voxelize", voxelize, device, gpu_scene, int(settings.resolution))
-    lit = kept("light", light, device, gpu_scene, voxels, injection_of(settings, gpu_scene, view))
-    targets = kept("targets", make_targets, device, view.size)
     film = make_film(device, view.size)
-    with film.scope:
+    with film.scope, kept.frame(device) as stage:
+        with device.profiler.host("upload"):
+            gpu_scene = stage("upload", upload, scene)
+        voxels = stage("voxelize", voxelize, gpu_scene, int(settings.resolution))
+        lit = stage("light", light, gpu_scene, voxels, injection_of(settings, gpu_scene, view))
+        targets = stage("targets", make_targets, view.size)
+        if is_picture := settings.view == "combined":
+            incident = stage("incident", make_incident, view.size)
+        else:
+            values = _voxel_values(stage, lit, settings)
         for sample in range(settings.samples):
             gbuffer = raster(device, gpu_scene, view, targets, settings, sample)
-            if settings.view == "combined":
-                incident = kept("incident", make_incident, device, view.size)
+            if is_picture:
                 gather(device, gpu_scene, lit, gbuffer, incident, settings, sample)
                 resolve(device, gpu_scene, gbuffer, incident, film)
             else:
-                _show(device, kept, lit, gbuffer, settings, film)
+                show_voxels(device, voxels.grid, values, gbuffer, settings, film)
+            is_late = 0 < settings.time_limit < time.monotonic() - started
+            film.is_last = is_late or film.n_samples == settings.samples
             yield film
-            if settings.time_limit and time.monotonic() - started > settings.time_limit:
+            if is_late:
                 return
 
 
-def _show(device: Device, kept: Kept, lit: LitVoxels, gbuffer: GBuffer, settings: RenderSettings, film: GpuFilm) -> None:
-    """One sample of a debug view."""
-    if settings.view in ("voxel_albedo", "voxel_normal"):
-        values = kept("attribute", make_attribute, device, lit.voxels, settings.view == "voxel_normal").values
-    else:
-        values = lit.radiance
-    show_voxels(device, lit.voxels.grid, values, gbuffer, settings, film)
+def _voxel_values(stage: Callable[..., Any], lit: LitVoxels, settings: RenderSettings) -> Any:
+    """What a debug view shows of the voxels."""
+    if settings.view == "voxel_radiance":
+        return lit.radiance
+    return stage("attribute", make_attribute, lit.voxels, settings.view == "voxel_normal").values
 
 
 class Session:
     """Renders for callers in any thread. The device is made when it is first needed; results of stages are kept."""
 
     def __init__(self) -> None:
-        self._thread: GpuThread | None = None
-        self._kept = Kept()
+        self._open: tuple[GpuThread, Kept] | None = None
+        self._lock = threading.Lock()
 
     def films(self, scene: Scene, view: View, settings: RenderSettings,
               should_stop: Callable[[], bool] = lambda: False, interval: float = 0.0) -> Iterator[Film]:
@@ -93,31 +73,33 @@ class Session:
         should_stop is asked on the calling thread while the GPU works; when it says True, Cancelled is raised.
         Raises SceneError, ShaderError or GpuError with a sentence for the user.
         """
+        thread, kept = self._opened()
 
         def read_films(device: Device) -> Iterator[Film]:
             due = 0.0
-            for film in render(scene, view, settings, device, self._kept):
-                is_last = film.n_samples == settings.samples
-                if is_last or time.monotonic() >= due:
+            for film in render(scene, view, settings, device, kept):
+                if film.is_last or time.monotonic() >= due:
                     yield _read(film, device, scene, settings)
                     due = time.monotonic() + interval
 
-        yield from self._gpu().iterate(read_films, should_stop)
+        yield from thread.iterate(read_films, should_stop)
 
     def device_info(self) -> dict[str, str]:
         """renderer, vendor and version of the device."""
-        return self._gpu().call(lambda device: device.info)
+        return self._opened()[0].call(lambda device: device.info)
 
     def close(self) -> None:
         """Release the device; the next use makes a new one."""
-        if self._thread is not None:
-            self._thread.close()
-        self._thread, self._kept = None, Kept()
+        with self._lock:
+            opened, self._open = self._open, None
+        if opened:
+            opened[0].close()
 
-    def _gpu(self) -> GpuThread:
-        if self._thread is None:
-            self._thread = GpuThread()
-        return self._thread
+    def _opened(self) -> tuple[GpuThread, Kept]:
+        with self._lock:
+            if self._open is None:
+                self._open = GpuThread(), Kept()
+            return self._open
 
 
 def _read(film: GpuFilm, device: Device, scene: Scene, settings: RenderSettings) -> Film:

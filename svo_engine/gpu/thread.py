@@ -6,8 +6,9 @@ from __future__ import annotations
 import queue
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future
-from concurrent.futures import TimeoutError as FutureTimeout
+from concurrent.futures import Future, wait
+from contextlib import suppress
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from ..errors import Cancelled
@@ -17,34 +18,51 @@ T = TypeVar("T")
 POLL_SECONDS = 0.02
 
 
+@dataclass(eq=False)
+class _Job:
+    """Work for the device. `stop` tells it, and no other, to end at its next dispatch."""
+
+    work: Callable[[Device], Any]
+    result: Future[Any] = field(default_factory=Future)
+    stop: threading.Event = field(default_factory=threading.Event)
+
+
 class GpuThread:
-    """A daemon thread with one Device, made when the first work arrives."""
+    """A daemon thread with one Device, made when the first work arrives. Work is done in the order of posting."""
 
     def __init__(self) -> None:
-        self._work: queue.SimpleQueue[tuple[Callable[[Device], Any], Future[Any]] | None] = queue.SimpleQueue()
+        self._jobs: queue.SimpleQueue[_Job | None] = queue.SimpleQueue()
         self._device: Device | None = None
-        self._turn = threading.Lock()
+        self._lock = threading.Lock()
+        self._is_closed = False
         self._thread = threading.Thread(target=self._serve, name="svo-gpu", daemon=True)
         self._thread.start()
 
-    def call(self, work: Callable[[Device], T], should_stop: Callable[[], bool] | None = None) -> T:
+    def call(self, work: Callable[[Device], T], should_stop: Callable[[], bool] = lambda: False) -> T:
         """Run `work(device)` on the GPU's thread and return its result, or raise what it raised.
 
         should_stop is asked on the calling thread every 20 ms; once it says True the work is told to stop at its next
-        dispatch, and Cancelled is raised here.
+        dispatch, which raises Cancelled. Cancelled too if the thread was closed.
         """
-        future: Future[T] = Future()
-        self._work.put((work, future))
-        while True:
-            try:
-                return future.result(POLL_SECONDS if should_stop else None)
-            except FutureTimeout:
-                if should_stop and should_stop() and self._device is not None:
-                    self._device.stop.set()
+        if threading.current_thread() is self._thread:  # a generator that nobody holds is closed wherever it is found
+            return work(self._device)  # type: ignore[arg-type]
+        job = _Job(work)
+        with self._lock:
+            if self._is_closed:
+                raise Cancelled("The renderer was closed")
+            self._jobs.put(job)
+        try:
+            while wait([job.result], POLL_SECONDS).not_done:
+                if should_stop():
+                    job.stop.set()
+        except BaseException:  # the caller will not wait any longer
+            job.stop.set()
+            raise
+        return job.result.result()
 
     def iterate(self, start: Callable[[Device], Iterator[T]], should_stop: Callable[[], bool]) -> Iterator[T]:
         """The items of a generator that lives on the GPU's thread; it is closed there too, however this one ends."""
-        items = self.call(lambda device: _begin(device, start), should_stop)
+        items: Any = self.call(start, should_stop)
         end = object()
         try:
             while (item := self.call(lambda device: next(items, end), should_stop)) is not end:
@@ -52,30 +70,26 @@ class GpuThread:
                 if should_stop():
                     raise Cancelled("Cancelled")
         finally:
-            self.call(lambda device: _close(items))
+            with suppress(Cancelled):  # closed, and everything released with it
+                self.call(lambda device: items.close())
 
     def close(self) -> None:
         """Release the device and end the thread; waits for the work in hand."""
-        self._work.put(None)
+        with self._lock:
+            self._is_closed = True
+            self._jobs.put(None)
         self._thread.join(timeout=10)
 
     def _serve(self) -> None:
-        while (job := self._work.get()) is not None:
-            work, future = job
+        while (job := self._jobs.get()) is not None:
             try:
                 if self._device is None:
                     self._device = Device()
-                future.set_result(work(self._device))
-            except BaseException as error:  # handed to the caller, who waits for it
-                future.set_exception(error)
+                self._device.stop = job.stop
+                self._device.check()
+                job.result.set_result(job.work(self._device))
+            except BaseException as error:  # noqa: BLE001 - handed to the caller, who waits for it
+                job.result.set_exception(error)
+            del job  # a result is its caller's alone
         if self._device is not None:
             self._device.release()
-
-
-def _begin(device: Device, start: Callable[[Device], Iterator[T]]) -> Iterator[T]:
-    device.stop.clear()
-    return start(device)
-
-
-def _close(items: Any) -> None:
-    items.close()

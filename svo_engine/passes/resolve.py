@@ -24,11 +24,15 @@ ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS),
 
 @dataclass(eq=False)
 class GpuFilm:
-    """The running sums on the device: texture f4, premultiplied RGBA; `n_samples` of them are in it."""
+    """The running sums on the device: texture f4, premultiplied RGBA; `n_samples` of them are in it.
+
+    is_last  whether the frame ends with this one
+    """
 
     scope: GpuScope
     combined: Any
     n_samples: int = 0
+    is_last: bool = False
 
     def read(self, device: Device) -> Film:
         """The mean so far, on the host."""

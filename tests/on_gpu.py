@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One OpenGL context for all tests. A folder's conftest.py imports what it needs from here.
+
+A test that takes `device` runs in the context's own thread, as a pass does. A test that takes `session` runs where
+pytest runs, as a user's call does. No test takes both.
+"""
+
+from __future__ import annotations
+
+import atexit
+from functools import cache
+
+import pytest
+
+from svo_engine.gpu.device import Device
+from svo_engine.gpu.thread import GpuThread
+from svo_engine.render import Session
+
+
+@cache
+def _session() -> Session:
+    made = Session()
+    atexit.register(made.close)
+    return made
+
+
+def _thread() -> GpuThread:
+    return _session()._opened()[0]
+
+
+@pytest.fixture(scope="session")
+def session() -> Session:
+    """The Session that the tests share."""
+    return _session()
+
+
+@pytest.fixture(scope="session")
+def device() -> Device:
+    """The device of that session."""
+    return _thread().call(lambda device: device)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """Run the body of a test that takes `device` in the device's thread."""
+    names = pyfuncitem._fixtureinfo.argnames
+    if "device" not in names:
+        return None
+    assert "session" not in names, "a test that waits for its own thread never ends"
+    arguments = {name: pyfuncitem.funcargs[name] for name in names}
+    _thread().call(lambda _: pyfuncitem.obj(**arguments))
+    return True
