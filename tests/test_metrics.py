@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -47,13 +47,11 @@ def test_a_scaled_flat_picture_has_the_closed_form_of_every_measure(scale: float
 
 
 @given(pictures)
-@settings(deadline=None)
 def test_a_picture_equals_itself(picture: np.ndarray):
     assert metrics.errors(picture, picture) == metrics.Errors(0, 0, 0, math.inf, 1, 0, 0)
 
 
 @given(pictures, pictures)
-@settings(deadline=None)
 def test_bounds_hold_for_any_two_pictures(a: np.ndarray, r: np.ndarray):
     e = metrics.errors(a, r)
     assert e.rel_mse >= 0
