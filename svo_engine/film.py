@@ -32,7 +32,7 @@ class Film:
         return width, height
 
     def save(self, path: str | Path) -> None:
-        """Write by the ending of `path`: .npz all planes as they are, .png or .exr the Combined plane. SvoError if it cannot."""
+        """Write by the ending of `path`: .npz all planes as they are, .png or .exr the Combined plane; or SvoError."""
         path = Path(path)
         writers = {".npz": _save_npz, ".png": _save_png, ".exr": _save_exr}
         if path.suffix not in writers:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything a user can set, once: default, range, unit and one sentence a field. The UI and the command line read it."""
+"""Everything a user can set, once: default, range, unit, a sentence. The UI and the command line are built from it."""
 
 from __future__ import annotations
 
@@ -26,8 +26,9 @@ def _setting(default: Any, label: str, description: str, group: str, **more: Any
     return field(default=default, metadata={"spec": Spec(label, description, group, **more)})
 
 
-METHODS = (("cones", "Cones", "Filtered voxels gathered by cone tracing, as in the thesis: smooth, quick, approximate"),)
-RESOLUTIONS = tuple((str(n), f"{n}\u00b3", f"{n} voxels along the longest side of the scene") for n in (32, 64, 128, 256))
+METHODS = (("cones", "Cones", "Filtered voxels, gathered by cone tracing: smooth, quick, approximate"),)
+RESOLUTIONS = tuple((str(n), f"{n}\u00b3", f"{n} voxels along the longest side of the scene")
+                    for n in (32, 64, 128, 256))
 VIEWS = (
     ("combined", "Combined", "The picture"),
     ("voxel_albedo", "Voxel Albedo", "The voxels themselves, showing the colour of their surfaces"),
@@ -96,7 +97,7 @@ def specs() -> dict[str, Spec]:
 
 
 def with_text(settings: RenderSettings, name: str, text: str) -> RenderSettings:
-    """`settings` with one field read from `text`, as the command line's --set NAME=VALUE gives it; SvoError if it cannot."""
+    """`settings` with one field read from `text`, as the command line's --set NAME=VALUE gives it, or SvoError."""
     if name not in specs():
         raise SvoError(f"There is no setting '{name}'; there are {', '.join(specs())}")
     kind = type(getattr(settings, name))

@@ -29,7 +29,7 @@ class Device:
     """One OpenGL context and all that runs on it. Every method is for the context's own thread."""
 
     def __init__(self) -> None:
-        self.ctx = create_context()
+        self.ctx, self.calls = create_context()
         self.limits = self.ctx.info
         self.stop = threading.Event()
         self.scopes: set[GpuScope] = set()
@@ -60,8 +60,9 @@ class Device:
     def dispatch(self, pass_: Pass, n: int, constants: Constants | None = None, **resources: Any) -> None:
         """Run a compute pass over `n` invocations, in slices, each told its range by `u_first` and `u_end`.
 
-        resources: every name that the pass declares: buffers, textures (sampled), images (level 0, read and written)
-        and uniform values. Slices change nothing but the time at which the device can be asked to stop.
+        resources: every name that the pass declares: buffers, textures (sampled), images (a 2D texture, or a Cube and
+        its mip level; read and written) and uniform values. Slices change nothing but the time at which the device can
+        be asked to stop.
         """
         pass_.check(set(resources))
         program, local = self._program(pass_, constants)
@@ -92,7 +93,7 @@ class Device:
 
     def draw(self, pass_: Pass, target: moderngl.Framebuffer, n_vertices: int, n_instances: int = 1,
              constants: Constants | None = None, **resources: Any) -> None:
-        """Draw triangles without vertex attributes into `target`: shaders fetch by gl_VertexID. Depth test as enabled."""
+        """Draw triangles without vertex attributes into `target`; shaders fetch by gl_VertexID."""
         pass_.check(set(resources))
         self.check()
         program, _ = self._program(pass_, constants)
@@ -134,7 +135,7 @@ class Device:
         except moderngl.Error as error:
             log = str(error)
             blamed = sources[-1] if "fragment_shader" in log else sources[0]
-            raise ShaderError(blamed.explain(log.split("=\n")[-1])) from error
+            raise ShaderError(blamed.explain(log.rsplit("=\n", maxsplit=1)[-1])) from error
 
     def _bind(self, pass_: Pass, program: Any, resources: Mapping[str, Any]) -> None:
         """Bind what the compiled program still has: a compiler may remove what a variant does not use."""
@@ -150,9 +151,18 @@ class Device:
                     program[name].value = slot
                     resource.use(slot)
                 else:
-                    program[name].value = slot
-                    resource.bind_to_image(slot, read=True, write=True)
+                    # moderngl writes garbage into uniforms of type image3D
+                    self.calls["glProgramUniform1i"](program.glo, program[name].location, slot)
+                    _bind_image(resource, slot)
         _set_uniforms(program, {name: resources[name] for name in pass_.uniforms})
+
+
+def _bind_image(image: Any, slot: int) -> None:
+    """Bind a 2D texture, or (Cube, mip level)."""
+    if isinstance(image, tuple):
+        image[0].bind_level(slot, image[1])
+    else:
+        image.bind_to_image(slot, read=True, write=True)
 
 
 def _set_uniforms(program: Any, values: Mapping[str, Value]) -> None:

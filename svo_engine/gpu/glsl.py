@@ -85,7 +85,7 @@ def compose(path: str, constants: Mapping[str, bool | int | float] | None = None
     return Source(path, "\n".join(lines) + "\n", tuple(origin), frozenset(unset))
 
 
-def _literal(kind: str, value: bool | int | float) -> str:
+def _literal(kind: str, value: float) -> str:
     if kind == "bool":
         return "true" if value else "false"
     if kind == "float":

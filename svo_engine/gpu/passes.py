@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A pass as data: its shaders and the names of all that it reads and writes. The device checks every call against it."""
+"""A pass as data: its shaders and the names of all that it reads and writes; every call is checked against it."""
 
 from __future__ import annotations
 

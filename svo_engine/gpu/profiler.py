@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -24,8 +24,8 @@ class Profiler:
         self._is_software = "llvmpipe" in str(ctx.info["GL_RENDERER"])
         self._idle: list[Any] = []
         self._pending: list[tuple[str, Any]] = []
-        self._gpu_ms: Counter[str] = Counter()
-        self._host_ms: Counter[str] = Counter()
+        self._gpu_ms: defaultdict[str, float] = defaultdict(float)
+        self._host_ms: defaultdict[str, float] = defaultdict(float)
         self.counts: Counter[str] = Counter()
 
     @contextmanager

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lifetimes. Every OpenGL object belongs to a GpuScope, which made it and releases it; nothing waits for a collector."""
+"""Lifetimes: every OpenGL object belongs to the GpuScope that made it; nothing waits for a garbage collector."""
 
 from __future__ import annotations
 
 from contextlib import ExitStack
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import moderngl
 import numpy as np
 
 from ..errors import GpuError
+from .cube import Cube
 
 if TYPE_CHECKING:
     from .device import Device
@@ -27,7 +28,7 @@ class GpuScope:
         self._stack = ExitStack()
         device.scopes.add(self)
 
-    def __enter__(self) -> GpuScope:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *exception: object) -> None:
@@ -40,11 +41,12 @@ class GpuScope:
         self.device.scopes.discard(self)
 
     def buffer(self, label: str, data: np.ndarray | int, clear: bool = False) -> moderngl.Buffer:
-        """A storage buffer that holds `data`, or that many bytes: zeros if `clear`, else anything. GpuError past the limit."""
+        """A storage buffer that holds `data`, or that many bytes, zeros if `clear`. GpuError past the limit."""
         n_bytes = data if isinstance(data, int) else data.nbytes
         limit = self.device.limits["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]
         if n_bytes > limit:
-            raise GpuError(f"Buffer '{label}' needs {_mib(n_bytes)}, the device allows {_mib(limit)} (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)")
+            raise GpuError(f"Buffer '{label}' needs {_mib(n_bytes)}, the device allows {_mib(limit)} "
+                           "(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)")
         ctx = self.device.ctx
         if isinstance(data, np.ndarray) and n_bytes:
             made = self._make(label, n_bytes, lambda: ctx.buffer(np.ascontiguousarray(data).tobytes()))
@@ -59,7 +61,8 @@ class GpuScope:
         """A 2D texture, nearest filter, clamped. dtype as in moderngl: f1 f2 f4 u1 u4 i4 ..."""
         largest = self.device.limits["GL_MAX_TEXTURE_SIZE"]
         if max(size) > largest:
-            raise GpuError(f"Texture '{label}' is {size[0]}x{size[1]} pixels, the device allows {largest} (GL_MAX_TEXTURE_SIZE)")
+            raise GpuError(f"Texture '{label}' needs {size[0]}x{size[1]} pixels, the device allows {largest} a side "
+                           "(GL_MAX_TEXTURE_SIZE)")
         raw = None if data is None else np.ascontiguousarray(data).tobytes()
         made = self._make(label, size[0] * size[1] * components * _BYTES[dtype],
                           lambda: self.device.ctx.texture(size, components, raw, dtype=dtype, alignment=1))
@@ -67,21 +70,21 @@ class GpuScope:
         made.repeat_x = made.repeat_y = False
         return made
 
-    def texture3d(self, label: str, n: int, components: int, dtype: str) -> moderngl.Texture3D:
-        """A cube of n^3 texels, zeros, clamped, linear filter with mip levels once `build_mipmaps` was called."""
-        n_bytes = n**3 * components * _BYTES[dtype]
-        made = self._make(label, n_bytes * 8 // 7,
-                          lambda: self.device.ctx.texture3d((n, n, n), components, bytes(n_bytes), dtype=dtype, alignment=1))
-        made.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
-        made.repeat_x = made.repeat_y = made.repeat_z = False
-        return made
+    def cube(self, label: str, n: int) -> Cube:
+        """A 3D texture RGBA f2 of n^3 texels, with mip levels; see `Cube`."""
+        largest = self.device.limits["GL_MAX_3D_TEXTURE_SIZE"]
+        if n > largest:
+            raise GpuError(f"Texture '{label}' needs {n} texels a side, the device allows {largest} "
+                           "(GL_MAX_3D_TEXTURE_SIZE)")
+        return self._make(label, 8 * n**3 * 8 // 7, lambda: Cube(self.device.calls, n))
 
     def framebuffer(self, label: str, colors: list[moderngl.Texture], with_depth: bool) -> moderngl.Framebuffer:
         """A framebuffer over `colors`, with a 32-bit depth buffer of its own if `with_depth`."""
         depth = None
         if with_depth:
             size = colors[0].size
-            depth = self._make(f"{label} depth", size[0] * size[1] * 4, lambda: self.device.ctx.depth_renderbuffer(size))
+            depth = self._make(f"{label} depth", size[0] * size[1] * 4,
+                               lambda: self.device.ctx.depth_renderbuffer(size))
         return self._make(label, 0, lambda: self.device.ctx.framebuffer(colors, depth))
 
     def _make(self, label: str, n_bytes: int, create: Any) -> Any:
@@ -89,8 +92,6 @@ class GpuScope:
             made = create()
         except (moderngl.Error, MemoryError) as error:
             raise GpuError(f"The device could not make '{label}' of {_mib(n_bytes)}: {error}") from error
-        if self.device.ctx.supports_labels:
-            made.label = label
         self._stack.callback(made.release)
         self.n_bytes += n_bytes
         self.n_objects += 1

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
+from ..gpu.cube import Cube
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..settings import RenderSettings
 from .gather import CAMERA
+from .light import build_levels
 from .raster import GBuffer
 from .resolve import GpuFilm
 from .voxelize import GRID, Grid, Voxels
@@ -22,22 +23,23 @@ VOXELS = Pass(("debug/voxels.comp.glsl",), textures=("u_attribute",), images=("u
 
 @dataclass(frozen=True, eq=False)
 class Attribute:
-    """values: 3D texture f2, rgb value times opacity, a opacity, all mip levels."""
+    """values: rgb value times opacity, a opacity, with mip levels."""
 
     scope: GpuScope
-    values: Any
+    values: Cube
 
 
 def make_attribute(device: Device, voxels: Voxels, show_normal: bool) -> Attribute:
     """The voxels' normals, or their albedo."""
     scope = device.scope()
-    values = scope.texture3d("attribute", voxels.grid.n, 4, "f2")
-    device.dispatch(ATTRIBUTE, voxels.n_voxels, {"SHOW_NORMAL": show_normal}, Voxels=voxels.voxels, u_attribute=values)
-    values.build_mipmaps()
+    values = scope.cube("attribute", voxels.grid.n)
+    device.dispatch(ATTRIBUTE, voxels.n_voxels, {"SHOW_NORMAL": show_normal}, Voxels=voxels.voxels,
+                    u_attribute=(values, 0))
+    build_levels(device, values)
     return Attribute(scope, values)
 
 
-def show_voxels(device: Device, grid: Grid, values: Any, gbuffer: GBuffer, settings: RenderSettings,
+def show_voxels(device: Device, grid: Grid, values: Cube, gbuffer: GBuffer, settings: RenderSettings,
                 film: GpuFilm) -> None:
     """Add one sample to `film`: the first filled texel of the asked mip level of `values` along each pixel's ray."""
     lod = min(settings.view_lod, grid.n.bit_length() - 1)

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from ..gpu.cube import Cube
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
@@ -18,15 +19,16 @@ from .voxelize import GRID, Voxels
 
 INJECT = Pass(("light/inject.comp.glsl",), ("Occupancy", "Voxels", "Lights"), images=("u_radiance",),
               uniforms=(*GRID, "u_eye", "u_ambient", "u_specular", "u_shininess"))
+MIP = Pass(("light/mip.comp.glsl",), images=("u_fine", "u_coarse"), uniforms=("u_n",))
 
 
 @dataclass(frozen=True, eq=False)
 class LitVoxels:
-    """radiance: 3D texture f2 of n^3, rgb outgoing radiance times opacity, a opacity, all mip levels."""
+    """radiance: rgb outgoing radiance times opacity, a opacity, with mip levels."""
 
     scope: GpuScope
     voxels: Voxels
-    radiance: Any
+    radiance: Cube
 
 
 class Injection(NamedTuple):
@@ -52,11 +54,17 @@ def injection_of(settings: RenderSettings, gpu_scene: GpuScene, view: View) -> I
 def light(device: Device, gpu_scene: GpuScene, voxels: Voxels, injection: Injection) -> LitVoxels:
     """Light the voxels."""
     scope = device.scope()
-    radiance = scope.texture3d("radiance", voxels.grid.n, 4, "f2")
+    radiance = scope.cube("radiance", voxels.grid.n)
     constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "LIGHT_POINTS": injection.points}
     device.dispatch(INJECT, voxels.n_voxels, constants, Occupancy=voxels.occupancy, Voxels=voxels.voxels,
-                    Lights=gpu_scene.lights, u_radiance=radiance, **voxels.grid.uniforms(), u_eye=injection.eye,
+                    Lights=gpu_scene.lights, u_radiance=(radiance, 0), **voxels.grid.uniforms(), u_eye=injection.eye,
                     u_ambient=injection.ambient, u_specular=injection.specular, u_shininess=injection.shininess)
-    with device.profiler.gpu("light/mipmap"):
-        radiance.build_mipmaps()
+    build_levels(device, radiance)
     return LitVoxels(scope, voxels, radiance)
+
+
+def build_levels(device: Device, cube: Cube) -> None:
+    """Fill the mip levels of a cube from its level 0, each texel the mean of eight."""
+    for level in range(1, cube.n_levels):
+        n = cube.n >> level
+        device.dispatch(MIP, n**3, u_fine=(cube, level - 1), u_coarse=(cube, level), u_n=n)

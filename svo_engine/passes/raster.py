@@ -33,7 +33,7 @@ class Targets:
 
 @dataclass(frozen=True, eq=False)
 class GBuffer:
-    """visibility: instance + 1 (0: nothing), triangle, barycentrics; world_from_clip (4, 4) f8, relative to the centre."""
+    """visibility: instance + 1 (0: nothing), triangle, barycentrics. world_from_clip: (4, 4) f8, to the centre."""
 
     targets: Targets
     world_from_clip: np.ndarray
@@ -65,7 +65,7 @@ def raster(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, se
     """Draw the scene for one sample, its pixel centres shifted by the pixel filter."""
     clip_from_world = view.clip_from_view @ np.linalg.inv(view.world_from_view)
     clip_from_world[:, 3] += clip_from_world[:, :3] @ gpu_scene.centre_ws
-    shift = np.eye(4)
+    shift = np.eye(4, dtype="f8")
     x, y = jitter(sample, settings.seed, settings.filter_width)
     shift[0, 3], shift[1, 3] = -2 * x / view.size[0], -2 * y / view.size[1]
     clip_from_world = shift @ clip_from_world

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scene -> GpuScene: the arrays as buffers in the layouts that the shaders read, positions relative to the grid's centre."""
+"""Scene -> GpuScene: the arrays as buffers in the layouts that the shaders read, positions relative to its centre."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Draw:
 
 @dataclass(frozen=True, eq=False)
 class GpuScene:
-    """The scene on the device. `centre_ws` (3,) f8, metres: subtracted from every position, so that far scenes keep f4."""
+    """The scene on the device. centre_ws: (3,) f8, metres; subtracted from every position, so that f4 does far away."""
 
     scope: GpuScope
     scene: Scene
@@ -83,7 +83,7 @@ def upload(device: Device, scene: Scene) -> GpuScene:
 
 
 def _geometry(scope: GpuScope, scene: Scene, centre: np.ndarray) -> tuple[dict[str, Any], tuple[Draw, ...], int]:
-    """Buffers of bind/geometry.glsl, the draws, and the number of triangles with instances counted as often as placed."""
+    """Buffers of bind/geometry.glsl, the draws, and the triangles with instances counted as often as placed."""
     meshes, inst = scene.meshes, scene.instances
     first_vertex = np.cumsum([0] + [len(m.positions) for m in meshes])
     first_triangle = np.cumsum([0] + [len(m.triangles) for m in meshes])
@@ -137,7 +137,7 @@ def _slots(scene: Scene, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def pack_units(vectors: np.ndarray) -> np.ndarray:
-    """Unit vectors (n, 3) as octahedral words (n,) u4: the inverse of `unpack_unit` in shaders/lib/math.glsl [Meyer10]."""
+    """Unit vectors (n, 3) as octahedral words (n,) u4, which `unpack_unit` in shaders/lib/math.glsl reads [Meyer10]."""
     v = vectors / np.maximum(np.abs(vectors).sum(1, keepdims=True), 1e-30)
     folded = (1 - np.abs(v[:, 1::-1])) * np.where(v[:, :2] >= 0, 1, -1)
     xy = np.where(v[:, 2:] < 0, folded, v[:, :2])

@@ -84,7 +84,7 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
         device.dispatch(MARK, n_tiles, Occupancy=occupancy, **work)
 
         n_words = n**3 // 32
-        bits = {"Occupancy": occupancy, "VoxelFirst": scratch.buffer("voxel numbers", 4 * n_words)}
+        bits: dict[str, Any] = {"Occupancy": occupancy, "VoxelFirst": scratch.buffer("voxel numbers", 4 * n_words)}
         device.dispatch(COUNT_VOXELS, n_words, **grid.uniforms(), **bits)
         n_voxels = scan(device, scratch, bits["VoxelFirst"], n_words)
 
