@@ -13,14 +13,14 @@ Border = tuple[float, float, float, float]
 def make_view(camera: Camera, size: tuple[int, int] | None = None, border: Border | None = None) -> View:
     """The view of `camera` for a picture of `size` pixels (default: the camera's own size).
 
-    border: (left, bottom, right, top) as fractions of the picture; the view is then that part alone, its size
-    `int(right * w) - int(left * w)` by the same rule upwards, as Blender crops a render border.
+    border: (left, bottom, right, top) as fractions of the picture; the view is then that part alone. Its edges lie on
+    pixels as Blender's do: a fraction times the side in 32-bit floats, cut to an integer; at least one pixel is left.
     """
     width, height = size or camera.size
     clip = _clip_from_camera(camera, width, height)
     if border is not None:
-        left, right = int(border[0] * width), int(border[2] * width)
-        bottom, top = int(border[1] * height), int(border[3] * height)
+        left, right = _pixel(border[0], width), _pixel(border[2], width)
+        bottom, top = _pixel(border[1], height), _pixel(border[3], height)
         right, top = max(right, left + 1), max(top, bottom + 1)
         clip = _crop(left / width, bottom / height, right / width, top / height) @ clip
         width, height = right - left, top - bottom
@@ -53,6 +53,11 @@ def _clip_from_camera(camera: Camera, width: int, height: int) -> np.ndarray:
         m[0, 2], m[1, 2] = (right + left) / (right - left), (top + bottom) / (top - bottom)
         m[2, 2], m[2, 3], m[3, 2] = -(far + near) / (far - near), -2 * far * near / (far - near), -1
     return m
+
+
+def _pixel(fraction: float, side: int) -> int:
+    """The pixel edge at `fraction` of `side` pixels. In doubles 0.7 of 10 were 6, as Blender's 0.7 is 0.69999999."""
+    return int(np.float32(fraction) * np.float32(side))
 
 
 def _crop(left: float, bottom: float, right: float, top: float) -> np.ndarray:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 import typing
-import zipfile
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
@@ -36,11 +35,13 @@ def load(path: str | Path) -> Scene:
         with np.load(path, allow_pickle=False) as data:
             header = json.loads(str(data["header"]))
             if header["format"] != FORMAT:
-                raise SceneError(f"'{path}' is a scene of format {header['format']}; this version reads format {FORMAT}")
+                raise SceneError(f"'{path}' is a scene of format {header['format']}; this version reads {FORMAT}")
             return _unpack(header["scene"], Scene, data)
     except OSError as error:
         raise SceneError(f"Cannot read '{path}': {error.strerror or error}") from error
-    except (ValueError, KeyError, TypeError, zipfile.BadZipFile) as error:
+    except SceneError:
+        raise
+    except Exception as error:  # numpy, zipfile and json raise of everything for a cut or foreign file
         raise SceneError(f"'{path}' is not a saved scene") from error
 
 
@@ -53,7 +54,7 @@ def _pack(value: Any, where: str, arrays: dict[str, np.ndarray]) -> Any:
         return where
     if isinstance(value, tuple):
         return [_pack(v, f"{where}/{i}", arrays) for i, v in enumerate(value)]
-    return value
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def _unpack(tree: Any, kind: Any, data: Any) -> Any:

@@ -60,7 +60,7 @@ class Mesh:
 
 @dataclass(frozen=True, eq=False)
 class Instances:
-    """Every visible placing of a mesh. The materials of instance i are `slot_materials[first_slot[i]:first_slot[i + 1]]`.
+    """Every visible placing of a mesh. Instance i has the materials `slot_materials[first_slot[i]:first_slot[i + 1]]`.
 
     names              n strings, the object's name, for messages
     mesh               (n,) u4, index into Scene.meshes
@@ -81,6 +81,8 @@ class Instances:
         _check("Instances", "world_from_object", self.world_from_object, "f8", (n, 4, 4))
         _check("Instances", "first_slot", self.first_slot, "u4", (n + 1,))
         _check("Instances", "slot_materials", self.slot_materials, "u4", (int(self.first_slot[-1]),))
+        if (np.diff(self.first_slot.astype("i8")) < 1).any():
+            raise SceneError("Instances: every instance needs a material slot")
 
     def __len__(self) -> int:
         return len(self.names)
@@ -95,7 +97,8 @@ class Instances:
 class Image:
     """Pixels as Blender holds them: row 0 is the bottom row.
 
-    pixels  (height, width, 4) u1 or f4, straight alpha. u1 is sRGB-encoded when `is_srgb`; f4 is scene-linear
+    pixels  (height, width, 4) u1 or f4, RGB as a material reads it, whether or not it was multiplied by alpha. u1 is
+            sRGB-encoded when `is_srgb`; f4 is scene-linear
     """
 
     name: str
@@ -113,7 +116,7 @@ class Image:
 class Texture:
     """How a material reads an image: `uv' = uv_from_mesh @ (u, v, 1)`, then one channel or all of them.
 
-    channel  -1: RGB as it is; 0, 1, 2, 3: that channel of RGBA, as a grey value
+    channel  -1: RGB as it is, or its Rec. 709 luminance for a number; 0, 1, 2, 3: that channel of RGBA, as a grey value
     """
 
     image: int
@@ -125,7 +128,7 @@ class Texture:
 
 @dataclass(frozen=True)
 class Material:
-    """The Principled BSDF's values. Where a texture is set (index into Scene.textures, -1: none) it multiplies the value.
+    """The Principled BSDF's values. A texture (index into Scene.textures, -1: none) multiplies the value of its name.
 
     emission         radiance [W m^-2 sr^-1] that the surface sends out by itself, colour times strength
     specular_level   Principled's "Specular IOR Level"; 0.5 leaves the reflectance that `ior` gives
@@ -150,6 +153,12 @@ class Material:
     alpha_texture: int = -1
     normal_texture: int = -1
 
+    @property
+    def textures(self) -> tuple[int, ...]:
+        """All of its textures' indices, -1 for each that is not set."""
+        return (self.base_color_texture, self.roughness_texture, self.metallic_texture, self.emission_texture,
+                self.alpha_texture, self.normal_texture)
+
 
 LightKind = Literal["POINT", "SUN", "SPOT", "AREA"]
 
@@ -164,9 +173,12 @@ class Light:
     angle        SUN: angular diameter, radians
     size         AREA: full width and height, metres, world scale
     is_ellipse   AREA: disk and ellipse shapes
-    spread       AREA: full angle, radians; pi is a Lambertian emitter
-    spot_angle   SPOT: full angle of the cone, radians
-    spot_blend   SPOT: 0 to 1, soft part of the cone's edge
+    spread       AREA: full angle 2h, radians; pi is a Lambertian emitter, below it the radiance at angle a to the axis
+                 is `emitted * max(tan h - tan a, 0) / (tan h - h)`
+    spot_angle   SPOT: full angle 2h of the cone, radians
+    spot_blend   SPOT: 0 to 1, soft part of the cone's edge: `smoothstep(0, 1, (cos a - cos h) / (blend (1 - cos h)))`
+    soft_falloff POINT, SPOT: not a sphere but a disk of `radius` that faces the point it lights, so that on the axis
+                 E = I / (d^2 + radius^2); Blender's default
     """
 
     name: str
@@ -181,6 +193,7 @@ class Light:
     spot_angle: float = np.pi
     spot_blend: float = 0.0
     casts_shadow: bool = True
+    soft_falloff: bool = False
 
     def __post_init__(self) -> None:
         owner = f"Light '{self.name}'"
@@ -191,9 +204,10 @@ class Light:
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """What a ray meets that leaves the scene: `radiance` [W m^-2 sr^-1] times the equirectangular image, if there is one.
+    """What a ray meets that leaves the scene: `radiance` [W m^-2 sr^-1] times the equirectangular image, if any.
 
-    env_from_world  (3, 3) f8, rotation from world directions to the image's own (Mapping node)
+    env_from_world  (3, 3) f8, from world directions to the image's own (Mapping node), where `environment.py` says what
+                    they see; a rotation, unless the Mapping node mirrors or scales
     """
 
     radiance: Color = (0.0, 0.0, 0.0)
@@ -274,6 +288,11 @@ class Scene:
         for texture in self.textures:
             if not 0 <= texture.image < len(self.images):
                 raise SceneError(f"Texture: image {texture.image} of {len(self.images)} is named")
+        for material in self.materials:
+            if (highest := max(material.textures)) >= len(self.textures):
+                raise SceneError(f"Material '{material.name}': texture {highest} of {len(self.textures)} is named")
+        if self.world.image >= len(self.images):
+            raise SceneError(f"World: image {self.world.image} of {len(self.images)} is named")
 
     @property
     def n_triangles(self) -> int:

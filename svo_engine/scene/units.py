@@ -18,15 +18,21 @@ def point_intensity(watts: float, color: Color, radius: float = 0.0, normalize: 
 
     A sphere of radius r that radiates L everywhere has the flux phi = 4 pi r^2 * pi L and, seen from afar, the
     intensity I = pi r^2 L = phi / (4 pi), whatever its radius. Not normalised (Blender 4.5+), the watts stand for pi
-    times the radiance of the sphere's surface [W m^-2]: I = watts * r^2.
+    times the radiance of the sphere's surface [W m^-2]: I = watts * r^2. A point has no surface; Cycles then takes
+    the sphere of 4 m^2: I = watts / pi.
     """
-    scale = 1 / (4 * math.pi) if normalize or radius == 0.0 else radius * radius
-    return _scaled(color, watts * scale)
+    if normalize:
+        return _scaled(color, watts / (4 * math.pi))
+    return _scaled(color, watts * radius * radius if radius > 0 else watts / math.pi)
 
 
-def sun_irradiance(strength: float, color: Color) -> Color:
-    """Irradiance E [W m^-2] of a surface that faces the sun: Blender's strength is just that, whatever the angle."""
-    return _scaled(color, strength)
+def sun_irradiance(strength: float, color: Color, angle: float = 0.0, normalize: bool = True) -> Color:
+    """Irradiance E [W m^-2] of a surface that faces a sun of angular diameter `angle` [rad].
+
+    Blender's strength is just that, whatever the angle. Not normalised (Blender 4.5+), it is the radiance of the
+    disk, whose projected solid angle is pi sin^2(angle / 2); at angle 0 there is no disk and it stays the irradiance.
+    """
+    return _scaled(color, strength if normalize or angle == 0 else strength * math.pi * math.sin(angle / 2) ** 2)
 
 
 def area_radiance(watts: float, color: Color, area: float, normalize: bool = True) -> Color:

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From Blender's evaluated depsgraph to the core's Scene. Nothing of the user's is changed, nothing is kept."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ...errors import SceneError
+from ...scene.types import Camera, Scene
+from .camera import border, read_camera
+from .images import Images
+from .materials import Materials
+from .placing import Placing
+from .textures import Textures
+from .world import read_world
+
+__all__ = ["border", "extract"]
+
+
+def extract(depsgraph: bpy.types.Depsgraph, *, space: bpy.types.SpaceView3D | None = None,
+            needs_camera: bool | None = None) -> Scene:
+    """All that `depsgraph` shows, copied. What could not be taken as it is has a sentence in the Scene's warnings.
+
+    space         the 3D viewport that is drawn: what is hidden in it alone is left out
+    needs_camera  raise SceneError if there is no camera; default: for a final render
+    """
+    notes: dict[str, None] = {}
+    warn = notes.setdefault
+    scene, layer = depsgraph.scene_eval, depsgraph.view_layer_eval
+    images = Images(warn)
+    textures = Textures(images)
+    materials = Materials(textures, warn)
+    placing = Placing(materials, layer.material_override, warn)
+    for instance in depsgraph.object_instances:
+        if instance.show_self and (space is None or instance.object.visible_in_viewport_get(space)):
+            placing.visit(instance)
+    world = read_world(getattr(layer, "world_override", None) or scene.world, images, warn)
+    return Scene(
+        meshes=tuple(placing.meshes), instances=placing.instances(), materials=tuple(materials.found),
+        textures=tuple(textures.found), images=tuple(images.found), lights=tuple(placing.lights), world=world,
+        camera=_camera(depsgraph, warn, depsgraph.mode == "RENDER" if needs_camera is None else needs_camera),
+        film_transparent=scene.render.film_transparent, warnings=tuple(notes))
+
+
+def _camera(depsgraph: Any, warn: Any, is_needed: bool) -> Camera | None:
+    scene = depsgraph.scene_eval
+    if scene.camera is not None:
+        return read_camera(scene.camera.evaluated_get(depsgraph), scene.render, warn)
+    if is_needed:
+        raise SceneError(f"Scene '{scene.name}' has no camera")
+    return None

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials: from their nodes, or from the values that they have without nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import bpy
+
+from ...scene.types import Material
+from .nodes import fed_output, tree_of
+from .reader import Reader
+from .surfaces import NOTHING, surface
+from .textures import Textures
+
+
+class Materials:
+    """Collects materials; `found` are those asked for so far, in the order of `Scene.materials`.
+
+    uv_maps  the names of the UV maps that each of them asks for
+    """
+
+    def __init__(self, textures: Textures, warn: Callable[[str], object]) -> None:
+        self.found: list[Material] = []
+        self.uv_maps: list[set[str]] = []
+        self._textures = textures
+        self._warn = warn
+        self._index: dict[int, int] = {}
+
+    def index(self, material: Any) -> int:
+        """Where `material` (an evaluated datablock, or None for an empty slot) stands in `found`."""
+        pointer = material.as_pointer() if material else 0
+        if pointer not in self._index:
+            self._index[pointer] = len(self.found)
+            reader = Reader(f"Material '{material.name}'" if material else "", self._textures, self._warn)
+            self.found.append(_read(material, reader) if material else default_material())
+            self.uv_maps.append(reader.uv_maps)
+        return self._index[pointer]
+
+
+def default_material() -> Material:
+    """What Cycles gives to a face without material: a Diffuse BSDF, since Blender 5.0 a Principled BSDF, both grey."""
+    if bpy.app.version >= (5, 0):
+        return Material("Default")
+    return replace(NOTHING, name="Default", base_color=(0.8, 0.8, 0.8))
+
+
+def _read(material: Any, reader: Reader) -> Material:
+    tree = tree_of(material)
+    if tree is None:
+        r, g, b, _ = material.diffuse_color
+        return Material(material.name, (r, g, b), material.roughness, material.metallic,
+                        specular_level=material.specular_intensity)
+    for name in ("Volume", "Displacement"):
+        port = fed_output(tree, name)
+        if port is not None and not port.is_constant:
+            reader.warn(f"{name.lower()} is left out")
+    return replace(surface(reader, fed_output(tree, "Surface")), name=material.name)

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One walk over everything that a depsgraph shows: meshes, where they stand, their materials, and lamps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ...scene.types import Instances, Light, Mesh
+from .lights import read_light
+from .materials import Materials
+from .meshes import read_mesh, uv_map_of
+
+# Evaluated geometry that Cycles draws and we do not
+_LEFT_OUT = {"VOLUME": "a volume", "CURVES": "hair", "POINTCLOUD": "a point cloud", "GREASEPENCIL": "a grease pencil",
+             "GPENCIL": "a grease pencil"}
+
+
+class Placing:
+    """Collects what `visit` is given, one object instance of the depsgraph at a time."""
+
+    def __init__(self, materials: Materials, override: Any, warn: Callable[[str], object]) -> None:
+        self.meshes: list[Mesh] = []
+        self.lights: list[Light] = []
+        self._materials = materials
+        self._override = override
+        self._warn = warn
+        self._mesh_index: dict[int, int] = {}  # by address of the evaluated data: their names are not unique
+        self._uv_maps: list[str] = []
+        self._names: list[str] = []
+        self._mesh: list[int] = []
+        self._matrices: list[np.ndarray] = []
+        self._slots: list[tuple[int, ...]] = []
+
+    def visit(self, instance: Any) -> None:
+        """Add what `instance` shows. Its matrix holds only until the next one is asked for."""
+        owner = instance.object
+        kind = owner.type
+        if kind not in ("MESH", "LIGHT") and kind not in _LEFT_OUT:
+            return
+        matrix = np.array(instance.matrix_world, "f8")
+        if not np.isfinite(matrix).all():
+            self._warn(f"Object '{owner.name}' is left out: its place is not a finite number")
+        elif kind == "MESH":
+            self._place(owner, matrix)
+        elif kind == "LIGHT":
+            light = read_light(owner.data, owner.name, matrix, self._warn)
+            self.lights += [] if light is None else [light]
+        else:
+            self._warn(f"Object '{owner.name}' is {_LEFT_OUT[kind]}, which is not supported; it is left out")
+
+    def instances(self) -> Instances:
+        """Every visible placing of a mesh so far."""
+        if not self._names:
+            return Instances.empty()
+        first_slot = np.cumsum([0, *map(len, self._slots)])
+        slots = [material for materials in self._slots for material in materials]
+        return Instances(tuple(self._names), np.array(self._mesh, "u4"), np.stack(self._matrices),
+                         first_slot.astype("u4"), np.array(slots, "u4"))
+
+    def _place(self, owner: Any, matrix: np.ndarray) -> None:
+        index = self._index(owner)
+        if index < 0:
+            return
+        self._names.append(owner.name)
+        self._mesh.append(index)
+        self._matrices.append(matrix)
+        self._slots.append(tuple(self._materials.index(m) for m in self._slot_materials(owner)))
+        for material in self._slots[-1]:
+            self._check_uv_map(material, index)
+
+    def _index(self, owner: Any) -> int:
+        """Where the owner's mesh stands in `meshes`; -1 if it has no triangles."""
+        pointer = owner.data.as_pointer()
+        if pointer not in self._mesh_index:
+            made = read_mesh(owner, self._warn)
+            self._mesh_index[pointer] = -1 if made is None else len(self.meshes)
+            if made is not None:
+                layer = uv_map_of(owner.data)
+                self.meshes.append(made)
+                self._uv_maps.append(layer.name if layer else "")
+        return self._mesh_index[pointer]
+
+    def _slot_materials(self, owner: Any) -> list[Any]:
+        """The material (or None) of each slot, at least one: the object's where it has its own, else the mesh's."""
+        if self._override is not None:
+            return [self._override]
+        materials = list(owner.data.materials)
+        slots = owner.material_slots
+        materials += [None] * (len(slots) - len(materials))
+        for i, slot in enumerate(slots):
+            if slot.link == "OBJECT" and slot.material is not None:
+                materials[i] = slot.material
+        return materials or [None]
+
+    def _check_uv_map(self, material: int, mesh: int) -> None:
+        others = self._materials.uv_maps[material] - {self._uv_maps[mesh], ""}
+        if others:
+            self._warn(f"Material '{self._materials.found[material].name}' asks for the UV map '{min(others)}'; "
+                       f"'{self.meshes[mesh].name}' is drawn with its active one")
