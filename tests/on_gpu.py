@@ -42,11 +42,10 @@ def device() -> Device:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
-    """Run the body of a test that takes `device` in the device's thread."""
-    names = pyfuncitem._fixtureinfo.argnames
-    if "device" not in names:
+    """Run the body of a test that takes `device`, itself or by a fixture, in the device's thread."""
+    if "device" not in pyfuncitem.fixturenames:
         return None
-    assert "session" not in names, "a test that waits for its own thread never ends"
-    arguments = {name: pyfuncitem.funcargs[name] for name in names}
+    assert "session" not in pyfuncitem.fixturenames, "no test needs both"
+    arguments = {name: pyfuncitem.funcargs[name] for name in pyfuncitem._fixtureinfo.argnames}
     _thread().call(lambda _: pyfuncitem.obj(**arguments))
     return True

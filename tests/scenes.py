@@ -9,10 +9,15 @@ from typing import Any
 
 import numpy as np
 
+from svo_engine.scene.camera import make_view
 from svo_engine.scene.meshes import make_mesh
-from svo_engine.scene.types import Camera, Instances, Light, LightKind, Material, Mesh, Scene
+from svo_engine.scene.types import Camera, Instances, Light, LightKind, Material, Mesh, Scene, View
+from svo_engine.settings import RenderSettings
 
 Vec = Sequence[float]
+
+# Quick on a processor
+SMALL = RenderSettings(samples=1, resolution="32")
 
 # Nothing but diffuse reflection, so that closed forms hold
 WHITE = Material("White", (0.8, 0.8, 0.8), specular_level=0)
@@ -107,3 +112,9 @@ def cornell(*lights: Light, **more: Any) -> Scene:
     camera = Camera("Camera", look((0, -4.2, 1), (0, 0, 1)), (64, 48), lens=40)
     lights = lights or (lamp("POINT", (0.2, -0.3, 1.7), emitted=5.0, radius=0.05),)
     return scene(*things, **{"camera": camera, "lights": lights, **more})
+
+
+def view(of: Scene, **more: Any) -> View:
+    """What the scene's own camera sees."""
+    assert of.camera is not None
+    return make_view(of.camera, **more)

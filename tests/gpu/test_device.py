@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Dispatches in slices: the same numbers, and a request to stop is heard between any two."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+
+from svo_engine.errors import Cancelled
+from svo_engine.gpu import device as module
+from svo_engine.gpu.passes import Pass
+from svo_engine.passes.voxelize import SCAN, SCAN_ADD, scan
+
+COUNTS = np.random.default_rng(1).integers(0, 9, 100_000).astype("u4")
+
+
+def scanned(device) -> np.ndarray:
+    with device.scope() as scope:
+        counts = scope.buffer("counts", COUNTS)
+        assert scan(device, scope, counts, len(COUNTS)) == COUNTS.sum()
+        return np.frombuffer(counts.read(), "u4")
+
+
+def n_slices(device, pass_: Pass) -> int:
+    return device.profiler.counts[pass_.name]
+
+
+@pytest.fixture
+def small_slices(device, monkeypatch):
+    """Slices of one or two workgroups, however quick the device is."""
+    monkeypatch.setattr(module, "FIRST_SLICE", 256)
+    monkeypatch.setattr(module, "SLICE_SECONDS", 1e-9)
+    monkeypatch.setattr(device, "_per_second", {})
+
+
+@pytest.mark.usefixtures("small_slices")
+def test_small_slices_give_what_one_dispatch_gives(device):
+    device.profiler.reset()
+    result = scanned(device)
+    assert np.array_equal(result, np.cumsum(COUNTS) - COUNTS)
+    assert n_slices(device, SCAN) > 25  # of 49 blocks of counts and one block of their sums
+    assert n_slices(device, SCAN_ADD) > 100
+    assert device.profiler.counts["voxelize/scan_add invocations"] == len(COUNTS)
+
+
+def test_one_dispatch_gives_the_same(device, monkeypatch):
+    monkeypatch.setattr(module, "FIRST_SLICE", 10**9)
+    monkeypatch.setattr(device, "_per_second", {})
+    device.profiler.reset()
+    assert np.array_equal(scanned(device), np.cumsum(COUNTS) - COUNTS)
+    assert (n_slices(device, SCAN), n_slices(device, SCAN_ADD)) == (2, 1)
+
+
+@pytest.mark.usefixtures("small_slices")
+def test_a_stop_is_heard_before_the_next_slice(device, monkeypatch):
+    gpu = device.profiler.gpu
+
+    @contextmanager
+    def gpu_then_stop(name):
+        with gpu(name):
+            yield
+        if device.profiler.counts[name] == 3:
+            device.stop.set()
+
+    monkeypatch.setattr(device.profiler, "gpu", gpu_then_stop)
+    device.profiler.reset()
+    with pytest.raises(Cancelled):
+        scanned(device)
+    assert n_slices(device, SCAN) == 3
+
+
+def test_nothing_to_do_runs_nothing(device):
+    device.profiler.reset()
+    with device.scope() as scope:
+        device.dispatch(SCAN_ADD, 0, Counts=scope.buffer("counts", 0), BlockSums=scope.buffer("sums", 0))
+    assert n_slices(device, SCAN_ADD) == 0
+
+
+@pytest.mark.parametrize(("given", "said"), [
+    ({"Counts": None}, r"voxelize/scan_add: missing \['BlockSums'\], unknown \[\]"),
+    ({"Counts": None, "BlockSums": None, "u_x": 1}, r"missing \[\], unknown \['u_x'\]"),
+])
+def test_a_call_must_give_just_what_the_pass_declares(device, given, said):
+    with pytest.raises(AssertionError, match=said):
+        device.dispatch(SCAN_ADD, 1, **given)
+
+
+def test_a_pass_is_named_after_its_stage_and_entry():
+    assert Pass(("raster/visibility.vert.glsl", "raster/visibility.frag.glsl")).name == "raster/visibility"
+
+
+def test_the_device_names_itself(device):
+    assert set(device.info) == {"renderer", "vendor", "version"}
+    assert all(device.info.values())

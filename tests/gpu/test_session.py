@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sessions: no leak, no quarrel, closing and using again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from svo_engine.errors import Cancelled, GpuError
+from svo_engine.passes import resolve
+from svo_engine.render import Session
+from tests import scenes
+
+
+def held(session) -> tuple[int, int]:
+    """Bytes and scopes that the session's device holds."""
+    return session._opened()[0].call(lambda device: (device.n_bytes, len(device.scopes)))
+
+
+def picture(session, scene, **settings) -> np.ndarray:
+    return list(session.films(scene, scenes.view(scene), replace(scenes.SMALL, **settings)))[-1].planes["Combined"]
+
+
+def room_with_lamp_at(x: float):
+    return scenes.cornell(scenes.lamp("POINT", (x, -0.3, 1.7), emitted=5.0))
+
+
+def test_twenty_renders_of_changing_scenes_hold_what_the_first_held(session):
+    picture(session, room_with_lamp_at(0))
+    first = held(session)
+    for i in range(20):
+        picture(session, room_with_lamp_at(0.02 * i))
+    assert held(session) == first
+
+
+def test_every_view_releases_its_own(session):
+    scene = scenes.cornell()
+    for view in ("combined", "voxel_albedo", "voxel_normal", "voxel_radiance", "voxel_coverage", "combined"):
+        picture(session, scene, view=view)
+    first = held(session)
+    for view in ("voxel_albedo", "voxel_normal", "combined"):
+        picture(session, scenes.cornell(), view=view)
+    assert held(session) == first
+
+
+def test_cancelling_at_any_moment_leaks_nothing(session):
+    scene = scenes.cornell()
+    picture(session, scene, resolution="64")
+    first = held(session)
+    for patience in range(8):
+        asked = iter([False] * patience)
+        films = session.films(scenes.cornell(), scenes.view(scene), replace(scenes.SMALL, resolution="64", samples=50),
+                              lambda asked=asked: next(asked, True))
+        with pytest.raises(Cancelled):
+            list(films)
+    picture(session, scene, resolution="64")
+    assert held(session) == first
+
+
+def test_a_scene_too_large_for_the_device_is_an_error_and_leaks_nothing(session):
+    thread = session._opened()[0]
+    picture(session, scenes.cornell())
+    first = held(session)
+    limits = thread.call(lambda device: device.limits)
+    small = {**limits, "GL_MAX_SHADER_STORAGE_BLOCK_SIZE": 40_000}
+    thread.call(lambda device: setattr(device, "limits", small))
+    with pytest.raises(GpuError, match="needs"):
+        picture(session, scenes.cornell())
+    thread.call(lambda device: setattr(device, "limits", limits))
+    picture(session, scenes.cornell())
+    assert held(session) == first
+
+
+def test_frames_that_take_turns_give_what_each_gives_alone(session):
+    """Two viewports: other scenes, other sizes, one of them edited while the other is half done."""
+    settings = replace(scenes.SMALL, samples=4)
+    rooms = [room_with_lamp_at(x) for x in (-0.5, 0.5, 0.7)]
+    views = [scenes.view(rooms[0]), scenes.view(rooms[1], size=(40, 40)), scenes.view(rooms[2])]
+    alone = [list(session.films(room, view, settings))[-1] for room, view in zip(rooms, views, strict=True)]
+    first = held(session)
+    running = [session.films(room, view, settings) for room, view in zip(rooms[:2], views[:2], strict=True)]
+    for films in running:
+        next(films)
+    third = list(session.films(rooms[2], views[2], settings))[-1]
+    last = [list(films)[-1] for films in running] + [third]
+    for one, other in zip(alone, last, strict=True):
+        assert np.array_equal(one.planes["Combined"], other.planes["Combined"])
+    assert held(session) == first
+
+
+def test_two_sessions_at_once_and_one_used_again_after_closing(session):
+    scene = scenes.cornell()
+    other = Session()
+    first = picture(other, scene)
+    assert np.array_equal(first, picture(session, scene))
+    other.close()
+    other.close()
+    assert np.array_equal(first, picture(other, scene))
+    other.close()
+
+
+def test_closing_while_a_frame_is_half_done_cancels_it():
+    session = Session()
+    scene = scenes.cornell()
+    films = session.films(scene, scenes.view(scene), replace(scenes.SMALL, samples=4))
+    next(films)
+    session.close()
+    with pytest.raises(Cancelled):
+        next(films)
+
+
+@pytest.mark.parametrize(("samples", "time_limit", "n_last"), [(3, 0.0, 3), (10_000, 1e-9, 1)])
+def test_the_last_film_always_comes(session, samples, time_limit, n_last):
+    """An interval drops films, but never the best one, also when time is up."""
+    scene = scenes.cornell()
+    settings = replace(scenes.SMALL, samples=samples, time_limit=time_limit)
+    numbers = [film.n_samples for film in session.films(scene, scenes.view(scene), settings, interval=1e9)]
+    assert numbers[-1] == n_last
+    assert len(numbers) <= 2  # the first and the last
+
+
+def test_films_come_one_a_sample_and_get_better(session):
+    scene = scenes.cornell()
+    settings = replace(scenes.SMALL, samples=3)
+    assert [film.n_samples for film in session.films(scene, scenes.view(scene), settings)] == [1, 2, 3]
+
+
+def test_stats_say_what_it_took(session):
+    scene = scenes.cornell()
+    film = next(session.films(scene, scenes.view(scene), scenes.SMALL))
+    assert film.stats["device"] == session.device_info()["renderer"]
+    assert film.stats["resolution"] == 32
+    assert film.stats["counts"]["triangles"] == scene.n_triangles == 22
+    assert film.stats["counts"]["lights"] == 1
+    assert all(ms >= 0 for ms in film.stats["times_ms"].values())
+    assert film.stats["times_ms"]["gather/cones"] > 0
+
+
+def test_an_error_inside_a_frame_reaches_the_caller_and_the_next_frame_works(session, monkeypatch):
+    scene = scenes.cornell()
+    picture(session, scene)
+    first = held(session)
+
+    def fail(*_):
+        raise GpuError("lost")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(resolve.GpuFilm, "read", fail)
+        with pytest.raises(GpuError, match="lost"):
+            picture(session, scene)
+    assert picture(session, scene).shape == (48, 64, 4)
+    assert held(session) == first
