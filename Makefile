@@ -22,7 +22,7 @@ test: lint $(VENV)/.libraries ## Run the linters and all tests
 	$(RUN) -m pytest
 
 lint: $(VENV)/.packages ## Check style, types and the rules of the house
-	$(RUN) -m ruff check
+	$(RUN) -m ruff check --output-format concise --quiet
 	$(RUN) -m mypy
 	$(RUN) -m tools.house
 

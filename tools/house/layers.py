@@ -35,11 +35,12 @@ LAYERS = {
     "settings": Layer(DATA, ("numpy",)),
     "metrics": Layer(DATA, ("numpy",)),
     "film": Layer(DATA, ("numpy",), deferred=("PIL", "OpenEXR")),
-    "gpu": Layer(("errors", "gpu"), ("numpy", "moderngl")),
+    "gpu": Layer(("errors", "gpu"), ("numpy", "moderngl", "glcontext")),
     "passes": Layer((*DATA, "gpu", "passes"), ("numpy",)),
     "render": Layer((*DATA, "gpu", "passes"), ("numpy",)),
     "blender": Layer((*DATA, "render", "blender"), ("numpy", *BLENDER)),
-    "__main__": Layer((*DATA, "render"), ("numpy",), deferred=("blender", "bpy")),
+    "cli": Layer((*DATA, "render"), ("numpy",), deferred=("blender", "bpy")),
+    "__main__": Layer(("cli",)),
 }
 
 
