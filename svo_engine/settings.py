@@ -60,7 +60,7 @@ class RenderSettings:
     cone_ring_angle: float = _setting(0.7853981633974483, "Ring Angle",
                                       "Angle between the normal and the eight diffuse cones around it", "Cones",
                                       low=0.1, high=1.5, unit="rad")
-    cone_aperture: float = _setting(0.6283185307179586, "Diffuse Aperture", "Full opening angle of a diffuse cone",
+    cone_aperture: float = _setting(0.4, "Diffuse Aperture", "Full opening angle of a diffuse cone",
                                     "Cones", low=0.05, high=2.5, unit="rad")
     cone_offset: float = _setting(1.0, "Offset", "Distance from the surface at which a cone starts", "Cones", low=0,
                                   high=8, unit="voxels")

@@ -56,9 +56,10 @@ vec3 diffuse_cones(Surface s)
     return PI * sum / weight;
 }
 
+// The cone ends before it reaches the surface that the lamp may hang under, whose filtered voxels are two wide.
 float shadow_cone(Surface s, LightSample light)
 {
-    float t_max = light.distance * u_voxels_per_metre - u_cone_offset;
+    float t_max = light.distance * u_voxels_per_metre - u_cone_offset - 2.0;
     return 1.0 - trace_cone(to_voxels(s.position), s.normal_geometric, light.wi, u_tan_half_shadow, t_max).a;
 }
 
