@@ -69,6 +69,7 @@ struct Light {
     float spot_cos;
     vec2 size;
     float spot_blend;
+    uint soft_falloff;
 };
 
 struct Voxel {

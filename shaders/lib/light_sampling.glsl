@@ -27,6 +27,16 @@ LightSample sample_sphere(Light light, vec3 p, vec2 u)
     return LightSample(wi, max(d * cos_theta - sqrt(inside), 0.0), light.emitted * (2.0 / (d2 * (1.0 + cos_max))));
 }
 
+// A disk of radius r that faces p, whatever p is: L = I / (pi r^2) and E_perp = L A cos / d^2.
+LightSample sample_facing_disk(Light light, vec3 p, vec2 u)
+{
+    vec3 to_centre = light.position - p;
+    float d_centre = max(length(to_centre), 1e-6);
+    vec3 to_light = frame_of(to_centre / d_centre) * vec3(light.size.x * disk_point(u), d_centre);
+    float d2 = max(dot(to_light, to_light), 1e-12), d = sqrt(d2);
+    return LightSample(to_light / d, d, light.emitted * (d_centre / (d2 * d)));
+}
+
 // Brightness across a spot's cone: 1 inside, smooth to 0 over the blend, 0 outside.
 float spot_falloff(Light light, vec3 wi)
 {
@@ -42,6 +52,13 @@ LightSample sample_sun(Light light, vec2 u)
     return LightSample(normalize(light.axis_z + disk.x * light.axis_x + disk.y * light.axis_y), INFINITE, light.emitted);
 }
 
+// tan h - h, by its series where rounding would leave little of the difference.
+float tan_excess(float h)
+{
+    float h2 = h * h;
+    return h < 0.3 ? h * h2 * (1.0 / 3.0 + h2 * (2.0 / 15.0 + h2 * 17.0 / 315.0)) : tan(h) - h;
+}
+
 // Points uniform on the lamp's front: E_perp = L A cos / d^2. A spread of 2 h < pi narrows the lobe to
 // (tan h - tan a) / (tan h - h), whose flux is that of the full lobe.
 LightSample sample_area(Light light, vec3 p, vec2 u)
@@ -52,9 +69,9 @@ LightSample sample_area(Light light, vec3 p, vec2 u)
     float d2 = max(dot(to_light, to_light), 1e-12);
     vec3 wi = to_light * inversesqrt(d2);
     float cosine = max(dot(wi, light.axis_z), 0.0);
-    float h = 0.5 * light.spread, lobe = 1.0;
+    float h = max(0.5 * light.spread, 1e-4), lobe = 1.0;
     if (h < 0.4999 * PI && cosine > 0.0)
-        lobe = max(tan(h) - sqrt(1.0 - cosine * cosine) / cosine, 0.0) / (tan(h) - h);
+        lobe = max(tan(h) - length(cross(wi, light.axis_z)) / cosine, 0.0) / tan_excess(h);
     return LightSample(wi, sqrt(d2), light.emitted * (area * cosine * lobe / d2));
 }
 
@@ -64,7 +81,7 @@ LightSample sample_light(Light light, vec3 p, vec2 u)
         return sample_sun(light, u);
     if (light.kind == LIGHT_AREA)
         return sample_area(light, p, u);
-    LightSample s = sample_sphere(light, p, u);
+    LightSample s = light.soft_falloff != 0u ? sample_facing_disk(light, p, u) : sample_sphere(light, p, u);
     if (light.kind == LIGHT_SPOT)
         s.E_perp *= spot_falloff(light, s.wi);
     return s;

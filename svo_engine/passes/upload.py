@@ -195,7 +195,7 @@ def _lights(lights: tuple[Light, ...], centre: np.ndarray) -> np.ndarray:
         row["axis_x"], row["axis_y"], row["axis_z"] = (m[:3, i] / np.linalg.norm(m[:3, i]) for i in range(3))
         row["kind"] = layouts.CONSTANTS[f"LIGHT_{light.kind}"]
         row["emitted"], row["casts_shadow"] = light.emitted, light.casts_shadow
-        row["is_ellipse"], row["spread"] = light.is_ellipse, light.spread
+        row["is_ellipse"], row["spread"], row["soft_falloff"] = light.is_ellipse, light.spread, light.soft_falloff
         row["spot_cos"], row["spot_blend"] = np.cos(light.spot_angle / 2), light.spot_blend
         if light.kind == "AREA":
             row["size"] = light.size[0] / 2, light.size[1] / 2

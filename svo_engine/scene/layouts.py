@@ -37,7 +37,8 @@ TEXTURE: Fields = (("u_from_uv", "vec3"), ("first_word", "uint"), ("v_from_uv", 
 # size.x (POINT, SPOT), tangent of half the angle in size.x (SUN). spot: cosine of half the angle, blend
 LIGHT: Fields = (("position", "vec3"), ("kind", "uint"), ("emitted", "vec3"), ("is_ellipse", "uint"),
                  ("axis_x", "vec3"), ("casts_shadow", "uint"), ("axis_y", "vec3"), ("spread", "float"),
-                 ("axis_z", "vec3"), ("spot_cos", "float"), ("size", "vec2"), ("spot_blend", "float"))
+                 ("axis_z", "vec3"), ("spot_cos", "float"), ("size", "vec2"), ("spot_blend", "float"),
+                 ("soft_falloff", "uint"))
 
 # One occupied voxel, whole surfaces averaged by area. voxel: 10 bits an axis. normal: octahedral, NO_NORMAL where
 # the surfaces cancel. albedo_coverage: RGBA8
