@@ -16,6 +16,7 @@ setup: $(VENV)/.libraries ## Install everything into .venv, and the system libra
 	@echo "All that is needed is installed; make help lists what can be done with it."
 
 render: $(VENV)/.libraries ## Render a sample scene; SCENE=FILE.blend and OUT=FOLDER choose others
+	@mkdir -p $(OUT)
 	$(RUN) -m svo_engine render $(SCENE) --out $(OUT)/
 
 test: lint $(VENV)/.libraries ## Run the linters and all tests

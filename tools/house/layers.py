@@ -39,7 +39,7 @@ LAYERS = {
     "passes": Layer((*DATA, "gpu", "passes"), ("numpy",)),
     "render": Layer((*DATA, "gpu", "passes"), ("numpy",)),
     "blender": Layer((*DATA, "render", "blender"), ("numpy", *BLENDER)),
-    "cli": Layer((*DATA, "render"), ("numpy",), deferred=("blender", "bpy")),
+    "cli": Layer((*DATA, "render", "cli"), ("numpy",), deferred=("blender", "bpy")),
     "__main__": Layer(("cli",)),
 }
 
