@@ -78,3 +78,12 @@ struct Voxel {
     uint albedo_coverage;
     uint normal;
 };
+
+struct Surfel {
+    vec3 position;
+    uint normal;
+    vec3 albedo;
+    uint voxel;
+    vec3 emission;
+    uint axis;
+};

@@ -25,7 +25,7 @@ _WORK = (*GRID, "u_n_instances", "u_n_work")
 
 COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "TileFirst"), uniforms=_WORK)
 MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "TileFirst", "Occupancy"), uniforms=_WORK)
-COUNT_VOXELS = Pass(("voxelize/count_voxels.comp.glsl",), ("Occupancy", "VoxelFirst"), uniforms=GRID)
+COUNT_BITS = Pass(("voxelize/count_bits.comp.glsl",), ("Bits", "BitFirst"))
 ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
                   (*GEOMETRY, *MATERIALS, "TileFirst", "Occupancy", "VoxelFirst", "Sums"),
                   uniforms=(*_WORK, "u_emission_unit"))
@@ -73,20 +73,14 @@ def make_grid(extent: float, n: int) -> Grid:
 def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
     """Voxelize at n voxels a side, n a multiple of 4. GpuError if the voxels do not fit the device."""
     grid, scope = make_grid(gpu_scene.extent, n), device.scope()
-    occupancy = scope.buffer("occupancy", n**3 // 8, clear=True)
     if not gpu_scene.n_work:
+        occupancy = scope.buffer("occupancy", n**3 // 8, clear=True)
         return Voxels(scope, grid, occupancy, scope.buffer("voxels", 0), 0)
     with device.scope() as scratch:
-        work = {**gpu_scene.geometry, **grid.uniforms(), "u_n_instances": gpu_scene.n_instances,
-                "u_n_work": gpu_scene.n_work, "TileFirst": scratch.buffer("tiles", 4 * gpu_scene.n_work)}
-        device.dispatch(COUNT, gpu_scene.n_work, **work)
-        n_tiles = scan(device, scratch, work["TileFirst"], gpu_scene.n_work)
-        device.dispatch(MARK, n_tiles, Occupancy=occupancy, **work)
-
-        n_words = n**3 // 32
-        bits: dict[str, Any] = {"Occupancy": occupancy, "VoxelFirst": scratch.buffer("voxel numbers", 4 * n_words)}
-        device.dispatch(COUNT_VOXELS, n_words, **grid.uniforms(), **bits)
-        n_voxels = scan(device, scratch, bits["VoxelFirst"], n_words)
+        work, n_tiles = cut_tiles(device, scratch, gpu_scene, grid)
+        occupancy = mark(device, scope, work, n_tiles, grid)
+        bits: dict[str, Any] = {"Occupancy": occupancy}
+        bits["VoxelFirst"], n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
 
         has_emission = gpu_scene.emission_unit > 0
         constants = {"HAS_EMISSION": has_emission, "SUMS": 11 if has_emission else 8}
@@ -95,9 +89,31 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
         device.dispatch(ACCUMULATE, n_tiles, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
                         **work, **gpu_scene.materials, **bits, **unit)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
-        device.dispatch(AVERAGE, n_words, constants, Voxels=voxels, **grid.uniforms(), **bits, **unit)
+        device.dispatch(AVERAGE, n**3 // 32, constants, Voxels=voxels, **grid.uniforms(), **bits, **unit)
     device.profiler.counts["voxels"] = n_voxels
     return Voxels(scope, grid, occupancy, voxels, n_voxels)
+
+
+def cut_tiles(device: Device, scratch: GpuScope, gpu_scene: GpuScene, grid: Grid) -> tuple[dict[str, Any], int]:
+    """The resources of bind/voxel_work.glsl and the number of tiles: voxelization's work, cut evenly."""
+    work = {**gpu_scene.geometry, **grid.uniforms(), "u_n_instances": gpu_scene.n_instances,
+            "u_n_work": gpu_scene.n_work, "TileFirst": scratch.buffer("tiles", 4 * gpu_scene.n_work)}
+    device.dispatch(COUNT, gpu_scene.n_work, **work)
+    return work, scan(device, scratch, work["TileFirst"], gpu_scene.n_work)
+
+
+def mark(device: Device, scope: GpuScope, work: dict[str, Any], n_tiles: int, grid: Grid) -> Any:
+    """A buffer in `scope` with a bit for each voxel of `grid`, set where a surface touches it."""
+    occupancy = scope.buffer("occupancy", grid.n**3 // 8, clear=True)
+    device.dispatch(MARK, n_tiles, Occupancy=occupancy, **work)
+    return occupancy
+
+
+def number_bits(device: Device, scope: GpuScope, bits: Any, n_words: int) -> tuple[Any, int]:
+    """For each of n_words words of `bits` the number of set bits before it, and the number of all."""
+    first = scope.buffer("bit numbers", 4 * n_words)
+    device.dispatch(COUNT_BITS, n_words, Bits=bits, BitFirst=first)
+    return first, scan(device, scope, first, n_words)
 
 
 def scan(device: Device, scratch: GpuScope, counts: Any, n: int) -> int:

@@ -44,7 +44,12 @@ LIGHT: Fields = (("position", "vec3"), ("kind", "uint"), ("emitted", "vec3"), ("
 # the surfaces cancel. albedo_coverage: RGBA8
 VOXEL: Fields = (("emission", "vec3"), ("voxel", "uint"), ("albedo_coverage", "uint"), ("normal", "uint"))
 
-STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Light": LIGHT, "Voxel": VOXEL}
+# The surfaces in one voxel whose normals are widest along one axis, averaged by area. position: metres relative to the
+# grid's centre; normal: octahedral, its component along the axis positive
+SURFEL: Fields = (("position", "vec3"), ("normal", "uint"), ("albedo", "vec3"), ("voxel", "uint"), ("emission", "vec3"),
+                  ("axis", "uint"))
+
+STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Light": LIGHT, "Voxel": VOXEL, "Surfel": SURFEL}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
