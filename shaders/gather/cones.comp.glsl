@@ -92,7 +92,7 @@ void main()
     if (seen.hit) {
         Surface s = seen.surface;
         Material m = materials[s.material];
-        vec3 f0 = mix(f0_of_ior(m.ior) * 2.0 * m.specular_level * m.specular_tint, seen.shading.base_color, seen.shading.metallic);
+        vec3 f0 = mix(dielectric_f0(m.ior, m.specular_level) * m.specular_tint, seen.shading.base_color, seen.shading.metallic);
         direct_light(seen, f0, hash(uint(pixel.x) + hash(uint(pixel.y) + u_seed)), E_direct, specular);
         if (HAS_INDIRECT) {
             E_indirect = diffuse_cones(s);

@@ -30,12 +30,13 @@ vec3 microfacet_brdf(vec3 f0, float alpha, float NoH, float NoV, float NoL, floa
     return d_ggx(NoH, alpha) * f_schlick(f0, VoH) * (g_cook_torrance(NoH, NoV, NoL, VoH) / (4.0 * NoL * NoV));
 }
 
-// Reflectance of a GGX surface under uniform light, f0 * x + y: a fit to the integral [Karis13].
+// Reflectance of a GGX surface under uniform light, f0 * x + y: a fit to the integral [Karis13], which leaves [0, 1] at
+// its ends and is cut off there.
 vec2 environment_brdf(float roughness, float NoV)
 {
     vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * NoV)) * r.x + r.y;
-    return vec2(-1.04, 1.04) * a + r.zw;
+    return clamp(vec2(-1.04, 1.04) * a + r.zw, 0.0, 1.0);
 }
 
 // Reflectance at normal incidence of a dielectric of that index of refraction.
@@ -43,4 +44,10 @@ float f0_of_ior(float ior)
 {
     float r = (ior - 1.0) / (ior + 1.0);
     return r * r;
+}
+
+// The same under the Principled BSDF's "Specular IOR Level", which scales it; no more than all light is reflected.
+float dielectric_f0(float ior, float specular_level)
+{
+    return min(2.0 * specular_level * f0_of_ior(ior), 1.0);
 }

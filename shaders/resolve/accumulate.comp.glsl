@@ -31,7 +31,7 @@ vec3 diffuse_albedo(Seen seen)
     if (!HAS_SPECULAR || m.specular_level == 0.0)
         return rho;
     vec2 ab = environment_brdf(seen.shading.roughness, dot(seen.surface.normal, seen.wo));
-    return rho * (1.0 - (f0_of_ior(m.ior) * 2.0 * m.specular_level * ab.x + ab.y));
+    return rho * max(1.0 - (dielectric_f0(m.ior, m.specular_level) * ab.x + ab.y), 0.0);
 }
 
 void main()
