@@ -30,7 +30,7 @@ def evaluate(device: Device, result: str, expression: str, includes: Sequence[st
     n = len(next(iter(inputs.values())))
     base, width = _BASES[result[0]], int(result[-1]) if result[-1].isdigit() else 1
     source = _source(result, base, expression, includes, prelude, inputs)
-    program = device.ctx.compute_shader(source.text)
+    program: Any = device.ctx.compute_shader(source.text)
     with device.scope() as scope:
         out = scope.buffer("result", 16 * n, clear=True)
         blocks = {**(buffers or {}), **{f"In_{name}": _padded(rows) for name, rows in inputs.items()}, "Result": out}

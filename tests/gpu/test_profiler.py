@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from itertools import count
+from typing import Any
 
 import pytest
 
@@ -39,6 +40,10 @@ class FakeContext:
         return FakeQuery()
 
 
+def profiler_of(context: Any) -> Profiler:
+    return Profiler(context)
+
+
 @pytest.fixture(autouse=True)
 def _one_millisecond_a_look(monkeypatch):
     ticks = count()
@@ -47,7 +52,7 @@ def _one_millisecond_a_look(monkeypatch):
 
 @pytest.mark.parametrize(("renderer", "ms"), [("llvmpipe (LLVM)", 1.0), ("A graphics card", 2.0)])
 def test_times_are_summed_by_name(renderer, ms):
-    profiler = Profiler(FakeContext(renderer))
+    profiler = profiler_of(FakeContext(renderer))
     for name in ("a/one", "a/two", "a/one"):
         with profiler.gpu(name):
             pass
@@ -59,7 +64,7 @@ def test_times_are_summed_by_name(renderer, ms):
 
 
 def test_reset_starts_anew():
-    profiler = Profiler(FakeContext("A graphics card"))
+    profiler = profiler_of(FakeContext("A graphics card"))
     with profiler.gpu("a/one"):
         pass
     profiler.reset()
@@ -68,7 +73,7 @@ def test_reset_starts_anew():
 
 def test_queries_are_used_again():
     context = FakeContext("A graphics card")
-    profiler = Profiler(context)
+    profiler = profiler_of(context)
     for _ in range(1000):
         with profiler.gpu("a/one"):
             pass
