@@ -14,6 +14,9 @@ const uint LIGHT_SUN = 1u;
 const uint LIGHT_SPOT = 2u;
 const uint LIGHT_AREA = 3u;
 const uint NO_NORMAL = 2147516416u;
+const uint BVH_LEAF = 2147483648u;
+const uint BVH_NONE = 4294967295u;
+const uint BVH_HEIGHT_BITS = 6u;
 
 struct Instance {
     vec4 row_x;
@@ -86,4 +89,35 @@ struct Surfel {
     uint voxel;
     vec3 emission;
     uint axis;
+};
+
+struct BvhNode {
+    vec3 low_a;
+    uint child_a;
+    vec3 high_a;
+    uint child_b;
+    vec3 low_b;
+    vec3 high_b;
+};
+
+struct BvhTriangle {
+    vec3 a;
+    uint triangle;
+    vec3 b;
+    vec3 c;
+};
+
+struct BvhInstance {
+    vec4 inv_x;
+    vec4 inv_y;
+    vec4 inv_z;
+    uint root;
+    float extent;
+};
+
+struct Cluster {
+    vec3 low;
+    uint reference;
+    vec3 high;
+    uint tree_height;
 };

@@ -49,12 +49,29 @@ VOXEL: Fields = (("emission", "vec3"), ("voxel", "uint"), ("albedo_coverage", "u
 SURFEL: Fields = (("position", "vec3"), ("normal", "uint"), ("albedo", "vec3"), ("voxel", "uint"), ("emission", "vec3"),
                   ("axis", "uint"))
 
-STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Light": LIGHT, "Voxel": VOXEL, "Surfel": SURFEL}
+# A node of a tree of boxes: two children, each its box and a reference: a node's index, or BVH_LEAF + a leaf's index
+BVH_NODE: Fields = (("low_a", "vec3"), ("child_a", "uint"), ("high_a", "vec3"), ("child_b", "uint"),
+                    ("low_b", "vec3"), ("high_b", "vec3"))
+
+# A leaf of a mesh's tree: corners in object space, and the triangle's number in the scene
+BVH_TRIANGLE: Fields = (("a", "vec3"), ("triangle", "uint"), ("b", "vec3"), ("c", "vec3"))
+
+# A leaf of the tree of instances, in their order: rows of object_from_world, the root of the mesh's tree, and the
+# largest coordinate in object space
+BVH_INSTANCE: Fields = (("inv_x", "vec4"), ("inv_y", "vec4"), ("inv_z", "vec4"), ("root", "uint"), ("extent", "float"))
+
+# What a tree is built from: box, reference, and tree << BVH_HEIGHT_BITS | height
+CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("tree_height", "uint"))
+
+STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Light": LIGHT, "Voxel": VOXEL,
+           "Surfel": SURFEL, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE,
+           "Cluster": CLUSTER}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
              "LIGHT_POINT": 0, "LIGHT_SUN": 1, "LIGHT_SPOT": 2, "LIGHT_AREA": 3,
-             "NO_NORMAL": 0x80008000}
+             "NO_NORMAL": 0x80008000,
+             "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6}
 
 
 def dtype(struct: Fields) -> np.dtype:
