@@ -89,7 +89,7 @@ def _render(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, run: Run, path: 
         session.last_stats.clear()
         seconds = _timed_render(scene)
         with as_svo_errors():
-            bpy.data.images[_render_result()].save_render(str(path), scene=scene)
+            bpy.data.images[render_result()].save_render(str(path), scene=scene)
         return {"engine": run.engine, "picture": path.name, "seconds": seconds, **run.describe(scene)}
 
 
@@ -127,7 +127,7 @@ def _timed_render(scene: bpy.types.Scene) -> float:
     return seconds
 
 
-def _render_result() -> str:
+def render_result() -> str:
     """Name of the image that shows renders; empty before the first one."""
     return next((image.name for image in bpy.data.images if image.type == "RENDER_RESULT"), "")
 
@@ -135,11 +135,11 @@ def _render_result() -> str:
 @contextmanager
 def _no_new_render_result() -> Iterator[None]:
     """Leave no Render Result behind where there was none."""
-    had_one = bool(_render_result())
+    had_one = bool(render_result())
     try:
         yield
     finally:
-        if not had_one and (name := _render_result()):
+        if not had_one and (name := render_result()):
             bpy.data.images.remove(bpy.data.images[name])
 
 

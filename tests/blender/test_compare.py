@@ -53,7 +53,7 @@ OURS, REFERENCE = (Run(name, "TEST_PAINTER", "cycles", {}, lambda _scene: {}) fo
 
 
 @pytest.fixture
-def scene(empty, extension):  # noqa: ARG001 - has to be there
+def scene(empty, extension):
     """A camera that sees nothing, 40 x 30 pixels."""
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     empty.collection.objects.link(camera)
