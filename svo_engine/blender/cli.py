@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import io
-import os
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import asdict
@@ -103,7 +101,6 @@ def _opened(file: Path, texts: Texts, size: Size, frame: int | None
             ) -> Iterator[tuple[bpy.types.Scene, Callable[[], tuple[str, ...]]]]:
     """The scene of `file`, prepared, and a function that gives the warnings that Blender has reported so far."""
     checked = reduce(lambda settings, text: with_text(settings, *text), texts, RenderSettings())
-    _silence_blender()
     register("svo_engine")
     try:
         # Reports of operators go through Python's stdout
@@ -129,14 +126,6 @@ def _warnings(reports: str) -> tuple[str, ...]:
     """Each warning once, in the order in which they came."""
     mark = "Warning: "
     return tuple(dict.fromkeys(line.removeprefix(mark) for line in reports.splitlines() if line.startswith(mark)))
-
-
-def _silence_blender() -> None:
-    """From now on only Python's stdout reaches the user; Blender itself writes to the file descriptor."""
-    if sys.stdout.fileno() == 1:
-        sys.stdout.flush()
-        sys.stdout = os.fdopen(os.dup(1), "w")
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 def _set_format(scene: bpy.types.Scene, path: Path) -> None:

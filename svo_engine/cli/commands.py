@@ -43,9 +43,7 @@ def render(args: argparse.Namespace) -> None:
 
 
 def _render_blend(args: argparse.Namespace, pictures: list[Path]) -> dict[str, Any]:
-    from ..blender import cli as blender
-
-    return blender.render(args.file, pictures, args.values, args.size, args.frame)
+    return _blender().render(args.file, pictures, args.values, args.size, args.frame)
 
 
 def _render_npz(args: argparse.Namespace, pictures: list[Path]) -> dict[str, Any]:
@@ -73,9 +71,7 @@ def extract(args: argparse.Namespace) -> None:
         raise SvoError(f"Cannot write '{args.scene}': its ending must be .npz")
     _expect_blend(args.file)
     _prepare(args.scene)
-    from ..blender import cli as blender
-
-    scene = blender.extract_scene(args.file, args.frame)
+    scene = _blender().extract_scene(args.file, args.frame)
     store.save(scene, args.scene)
     _warn(scene.warnings)
     print(args.scene)
@@ -86,10 +82,8 @@ def extract(args: argparse.Namespace) -> None:
 def compare(args: argparse.Namespace) -> None:
     """Compare with Cycles into args.out."""
     _expect_blend(args.file)
-    from ..blender import cli as blender
-
-    found, warnings = blender.compare(args.file, args.out, args.values, args.samples, args.bounces, args.size,
-                                      args.frame)
+    found, warnings = _blender().compare(args.file, args.out, args.values, args.samples, args.bounces, args.size,
+                                         args.frame)
     _warn(warnings)
     print(found.picture, found.sentence(), sep="\n")
 
@@ -102,6 +96,17 @@ def info(_args: argparse.Namespace) -> None:
         _print_rows({f"OpenGL {key}": value for key, value in session.device_info().items()})
     finally:
         session.close()
+
+
+def _blender() -> Any:
+    """`blender/cli.py`. From now on only Python's stdout reaches the user; Blender writes to the file descriptor."""
+    if sys.stdout.fileno() == 1:
+        sys.stdout.flush()
+        sys.stdout = os.fdopen(os.dup(1), "w")
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    from ..blender import cli
+
+    return cli
 
 
 def _kind(path: Path) -> str:
