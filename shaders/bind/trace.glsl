@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: exact rays against the scene's triangles, through a tree of boxes over the instances and one for each mesh.
+// Positions are metres relative to the grid's centre; t counts in lengths of d, which need not be a unit vector.
+// Triangles have two sides. Where `seed` matters: of a surface with alpha, that share of all seeds is hit.
+
+#include "bind/geometry.glsl"
+#include "bind/materials.glsl"
+
+const bool HAS_ALPHA = false;
+const bool STACK_SHARED = false;  // in shared memory, which is quicker on processors; workgroups have 64 invocations then
+const int STACK = 64;             // the trees' height
+
+layout(std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
+layout(std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
+layout(std430) readonly buffer BvhInstances { BvhInstance bvh_instances[]; };
+
+uniform uint u_bvh_root;     // of the tree of instances, BVH_NONE if there are none
+uniform float u_bvh_extent;  // the scene's largest coordinate
+
+shared uint trace_stack_shared[STACK_SHARED ? 64 * STACK : 1];
+uint trace_stack[STACK_SHARED ? 1 : STACK];
+
+const float BOX_MARGIN = 1e-6;  // of the coordinates: more than the error of the triangle test, eight roundings of 6e-8
+
+struct Hit {
+    float t;
+    uint instance;
+    uint triangle;
+    vec2 bary;  // of the second and third corner
+};
+
+// A ray in the space of one tree.
+struct Ray {
+    vec3 o;
+    vec3 inv_d;
+    vec3 shear;    // d.xy / d.z and 1 / d.z, axes turned so that d.z is the largest
+    int axis;      // which one that is
+    float margin;  // by which boxes are wider for this ray than what they hold
+};
+
+// Axes turned so that `axis` comes last.
+vec3 turned(vec3 v, int axis)
+{
+    return axis == 2 ? v : axis == 1 ? v.zxy : v.yzx;
+}
+
+Ray make_ray(vec3 o, vec3 d, float extent)
+{
+    Ray ray;
+    vec3 size = abs(d), far = abs(o);
+    ray.o = o;
+    ray.inv_d = 1.0 / mix(d, vec3(1e-20), lessThan(size, vec3(1e-20)));
+    ray.axis = size.z >= max(size.x, size.y) ? 2 : size.y >= size.x ? 1 : 0;
+    vec3 d_turned = turned(d, ray.axis);
+    ray.shear = vec3(d_turned.xy, 1.0) / d_turned.z;
+    ray.margin = BOX_MARGIN * (max(far.x, max(far.y, far.z)) + extent);
+    return ray;
+}
+
+// Where the ray enters a box, if it does so before t_max.
+bool meets_box(Ray ray, vec3 low, vec3 high, float t_max, out float t)
+{
+    vec3 at_low = (low - (ray.o + ray.margin)) * ray.inv_d, at_high = (high - (ray.o - ray.margin)) * ray.inv_d;
+    vec3 enter = min(at_low, at_high), leave = max(at_low, at_high);
+    t = max(max(enter.x, enter.y), max(enter.z, 0.0));
+    return t <= min(min(leave.x, leave.y), min(leave.z, t_max));
+}
+
+// Watertight [Woop13]: what the edge between two triangles makes of a ray is the same seen from both. Products are not
+// contracted, so that signs are right or the value is zero, and zero counts as inside.
+bool meets_triangle(Ray ray, BvhTriangle triangle, float t_max, out float t, out vec2 bary)
+{
+    precise vec3 a = turned(triangle.a - ray.o, ray.axis), b = turned(triangle.b - ray.o, ray.axis),
+                 c = turned(triangle.c - ray.o, ray.axis);
+    precise vec2 a2 = a.xy - ray.shear.xy * a.z, b2 = b.xy - ray.shear.xy * b.z, c2 = c.xy - ray.shear.xy * c.z;
+    precise float u = c2.x * b2.y - c2.y * b2.x, v = a2.x * c2.y - a2.y * c2.x, w = b2.x * a2.y - b2.y * a2.x;
+    float det = u + v + w;
+    t = (u * a.z + v * b.z + w * c.z) * ray.shear.z / det;
+    bary = vec2(v, w) / det;
+    bool is_inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
+    return is_inside && det != 0.0 && t > 0.0 && t < t_max;
+}
+
+// Whether a surface with alpha lets this ray through.
+bool is_cut_out(uint instance, uint triangle, vec2 bary, uint seed)
+{
+    uint material = material_of(instance, triangle);
+    vec2 uv = materials[material].alpha_texture >= 0 ? uv_at(triangle, bary) : vec2(0.0);
+    return alpha_at(material, uv, true) <= r2_point(0u, hash(seed ^ hash(instance ^ hash(triangle)))).x;
+}
+
+void push_stack(int at, uint reference)
+{
+    if (STACK_SHARED)
+        trace_stack_shared[at * 64 + int(gl_LocalInvocationIndex)] = reference;
+    else
+        trace_stack[at] = reference;
+}
+
+uint read_stack(int at)
+{
+    return STACK_SHARED ? trace_stack_shared[at * 64 + int(gl_LocalInvocationIndex)] : trace_stack[at];
+}
+
+// The ray in the space of an instance: d keeps its length in world units, so that t stays what it is.
+Ray enter_instance(BvhInstance instance, vec3 o, vec3 d)
+{
+    vec4 o1 = vec4(o, 1.0);
+    vec3 o_os = vec3(dot(instance.inv_x, o1), dot(instance.inv_y, o1), dot(instance.inv_z, o1));
+    vec3 d_os = vec3(dot(instance.inv_x.xyz, d), dot(instance.inv_y.xyz, d), dot(instance.inv_z.xyz, d));
+    return make_ray(o_os, d_os, instance.extent);
+}
+
+// The nearest hit, or with `any_will_do` some hit, before t_max. One loop over both levels: while `bottom` is not
+// negative the ray is in `instance`, whose nodes lie on the stack above it.
+bool trace(vec3 o, vec3 d, float t_max, uint seed, const bool any_will_do, out Hit hit)
+{
+    hit = Hit(t_max, BVH_NONE, 0u, vec2(0.0));
+    Ray ray = make_ray(o, d, u_bvh_extent);
+    uint reference = u_bvh_root, instance = 0u;
+    int top = 0, bottom = -1;
+    while (reference != BVH_NONE) {
+        uint next = BVH_NONE;
+        if (reference < BVH_LEAF) {
+            BvhNode node = bvh_nodes[reference];
+            float t_a, t_b;
+            bool in_a = meets_box(ray, node.low_a, node.high_a, hit.t, t_a);
+            bool in_b = meets_box(ray, node.low_b, node.high_b, hit.t, t_b);
+            bool is_a_first = in_a && (!in_b || t_a <= t_b);
+            if (in_a && in_b)
+                push_stack(top++, is_a_first ? node.child_b : node.child_a);
+            if (in_a || in_b)
+                next = is_a_first ? node.child_a : node.child_b;
+        } else if (bottom < 0) {
+            instance = reference - BVH_LEAF;
+            ray = enter_instance(bvh_instances[instance], o, d);
+            next = bvh_instances[instance].root;
+            bottom = top;
+        } else {
+            BvhTriangle triangle = bvh_triangles[reference - BVH_LEAF];
+            float t;
+            vec2 bary;
+            if (meets_triangle(ray, triangle, hit.t, t, bary)
+                && !(HAS_ALPHA && is_cut_out(instance, triangle.triangle, bary, seed))) {
+                hit = Hit(t, instance, triangle.triangle, bary);
+                if (any_will_do)
+                    return true;
+            }
+        }
+        if (next == BVH_NONE && top == bottom) {
+            ray = make_ray(o, d, u_bvh_extent);
+            bottom = -1;
+        }
+        reference = next == BVH_NONE && top > 0 ? read_stack(--top) : next;
+    }
+    return hit.instance != BVH_NONE;
+}
+
+bool trace_closest(vec3 o, vec3 d, float t_max, uint seed, out Hit hit)
+{
+    return trace(o, d, t_max, seed, false, hit);
+}
+
+bool trace_any(vec3 o, vec3 d, float t_max, uint seed)
+{
+    Hit hit;
+    return trace(o, d, t_max, seed, true, hit);
+}
+
+// The start of a ray along d from surface point p: off the surface by 256 units in the last place of each coordinate, more
+// than its rounding, in whole steps of the number's own pattern of bits [Waechter19]; near zero by as much as at 1/32 of
+// the scene's extent.
+vec3 offset_origin(vec3 p, vec3 n_geometric, vec3 d)
+{
+    vec3 n = dot(n_geometric, d) < 0.0 ? -n_geometric : n_geometric;
+    float small = u_bvh_extent / 32.0;
+    ivec3 steps = ivec3(256.0 * n);
+    vec3 stepped = intBitsToFloat(floatBitsToInt(p) + steps * (1 - 2 * ivec3(lessThan(p, vec3(0.0)))));
+    vec3 shifted = p + n * small / 65536.0;
+    return mix(stepped, shifted, lessThan(abs(p), vec3(small)));
+}
