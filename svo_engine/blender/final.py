@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The final render of one view layer: for F12, an animation, the command line of Blender and material previews."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+
+from ..scene.camera import make_view
+from ..scene.types import Scene, View
+from ..settings import RenderSettings
+from . import present, session
+from .extract import border, extract
+from .extract.camera import read_camera
+from .properties import settings_of
+
+# A preview is an icon or a small sphere: it must come at once
+_PREVIEW_SETTINGS = RenderSettings(samples=4, resolution="32")
+_UPDATE_SECONDS = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """What `render_frame` needs: all of Blender's scene data, already copied, except the cameras' places."""
+
+    scene: Scene
+    settings: RenderSettings
+    border: tuple[float, float, float, float] | None
+    layer: str
+
+
+def extract_frame(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Frame:
+    """Copy the scene, while Blender keeps it still. SceneError if it cannot be rendered."""
+    settings = _PREVIEW_SETTINGS if engine.is_preview else settings_of(depsgraph.scene)
+    return Frame(extract(depsgraph), settings, border(depsgraph.scene), depsgraph.view_layer.name)
+
+
+def render_frame(engine: bpy.types.RenderEngine, frame: Frame) -> None:
+    """Render every stereo view of the frame into its result. Cancelled if the user stops it."""
+    for name in [view.name for view in engine.get_result().views]:
+        engine.active_view_set(name)
+        _render_view(engine, frame, name, _view_of(engine, frame))
+
+
+def _view_of(engine: bpy.types.RenderEngine, frame: Frame) -> View:
+    """What the active stereo view looks through: a camera of its own, or the scene's, moved and shifted for an eye."""
+    owner = engine.camera_override
+    camera = read_camera(owner, engine.render, lambda _warning: None)
+    camera = replace(camera, world_from_camera=np.array(engine.camera_model_matrix(owner), "f8"),
+                     shift=(engine.camera_shift_x(owner), owner.data.shift_y))
+    return make_view(camera, (engine.resolution_x, engine.resolution_y), frame.border)
+
+
+def _render_view(engine: bpy.types.RenderEngine, frame: Frame, name: str, view: View) -> None:
+    """Render one view; whatever there is when it ends, also by an error or a cancel, stays in the result."""
+    engine.update_stats("", "Preparing")
+    result = engine.begin_result(0, 0, *view.size, layer=frame.layer, view=name)
+    film = None
+    try:
+        for film in session.current.films(frame.scene, view, frame.settings, engine.test_break, _UPDATE_SECONDS):
+            present.fill_result(result, film, name)
+            engine.update_result(result)
+            engine.update_progress(film.n_samples / frame.settings.samples)
+            engine.update_stats("", f"Sample {film.n_samples}/{frame.settings.samples}")
+    finally:
+        engine.end_result(result, cancel=film is None)
+    if film is not None and not engine.is_preview:
+        session.keep_stats(film)

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One RENDERED viewport: extracts and draws on the main thread, renders in a Worker, asks for redraws from a timer."""
+
+from __future__ import annotations
+
+import weakref
+from dataclasses import replace
+from typing import Any
+
+import bpy
+
+from ..film import Film
+from ..scene.types import Scene
+from . import present, session
+from .extract import extract
+from .properties import settings_of
+from .viewport_view import view_of
+from .worker import Job, Worker
+
+_SECONDS_BETWEEN_POLLS = 1 / 60
+_SECONDS_TO_CLOSE = 5.0
+_open: list[Viewport] = []
+
+
+class Viewport:
+    """Belongs to one RenderEngine object, and closes itself when Blender has freed that."""
+
+    def __init__(self, engine: bpy.types.RenderEngine) -> None:
+        self._engine = weakref.ref(engine)
+        self._worker = Worker(session.current.films)
+        self._scene: Scene | None = None
+        self._unlit_scene: Scene | None = None
+        self._texture: tuple[Film, Any] | None = None
+        _open.append(self)
+        if not bpy.app.timers.is_registered(_poll):
+            bpy.app.timers.register(_poll, persistent=True)
+
+    def update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Read the scene anew; SceneError if it cannot be rendered."""
+        self._scene = self._unlit_scene = None
+        self._scene = extract(depsgraph, space=context.space_data)
+        self._unlit_scene = replace(self._scene, lights=())
+
+    def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, scene: bpy.types.Scene) -> str:
+        """Draw the newest film and order a better one. How far it is, in words; raises what the worker ended with."""
+        is_lit = context.space_data.shading.use_scene_lights_render
+        if (shown_scene := self._scene if is_lit else self._unlit_scene) is None:
+            return ""
+        view, rect = view_of(context, scene)
+        settings = settings_of(scene)
+        settings = replace(settings, samples=settings.viewport_samples, time_limit=0.0)
+        self._worker.show(Job(shown_scene, view, settings, rect))
+        if self._worker.error is not None:
+            raise self._worker.error
+        if self._worker.shown is None:
+            return "Preparing"
+        job, film = self._worker.shown
+        present.draw_texture(engine, scene, self._texture_of(film), job.rect)
+        return f"Sample {film.n_samples}/{settings.samples}"
+
+    def poll(self) -> bool:
+        """Ask Blender for a redraw if there is something new; False once Blender has freed the engine."""
+        try:
+            engine = self._engine()
+            if engine is not None and self._worker.take_news():
+                engine.tag_redraw()
+        except ReferenceError:
+            engine = None
+        return engine is not None
+
+    def close(self) -> None:
+        """End the worker."""
+        self._worker.close()
+
+    def join(self) -> None:
+        """Wait for the worker's end."""
+        self._worker.join(_SECONDS_TO_CLOSE)
+
+    def _texture_of(self, film: Film) -> Any:
+        if self._texture is None or self._texture[0] is not film:
+            self._texture = film, present.make_texture(film)
+        return self._texture[1]
+
+
+def close_all() -> None:
+    """End all viewports and wait for their threads."""
+    closing, _open[:] = _open[:], []
+    for viewport in closing:
+        viewport.close()
+    for viewport in closing:
+        viewport.join()
+
+
+def _poll() -> float | None:
+    """The timer on the main thread: Blender's redraw must not be asked for from another one."""
+    for viewport in _open[:]:
+        if not viewport.poll():
+            viewport.close()
+            _open.remove(viewport)
+    return _SECONDS_BETWEEN_POLLS if _open else None
