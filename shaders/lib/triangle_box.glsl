@@ -6,8 +6,9 @@ struct VoxelTriangle {
     vec3 a, b, c;  // corners, axes turned
     vec3 n;        // cross(b - a, c - a), axes turned
     int axis;      // the dominant axis before the turn
-    ivec3 low;     // first and last cell of the bounding box, clamped to the grid
+    ivec3 low;     // first and last cell of the bounding box, clamped to the grid; no column if there is no area
     ivec3 high;
+    float slack;   // along z: TOUCH, and by how much rounding of the normal tilts the plane of a sliver
 };
 
 // Slack for rounding: a voxel that a surface only touches counts as touched.
@@ -23,6 +24,11 @@ ivec3 turned_back(ivec3 v, int axis)
     return axis == 0 ? v.zxy : axis == 1 ? v.yzx : v;
 }
 
+vec3 turned_back(vec3 v, int axis)
+{
+    return axis == 0 ? v.zxy : axis == 1 ? v.yzx : v;
+}
+
 VoxelTriangle voxel_triangle(vec3 a, vec3 b, vec3 c, int n)
 {
     vec3 normal = cross(b - a, c - a), size = abs(normal);
@@ -30,9 +36,20 @@ VoxelTriangle voxel_triangle(vec3 a, vec3 b, vec3 c, int n)
     VoxelTriangle t;
     t.axis = axis;
     t.a = turned(a, axis), t.b = turned(b, axis), t.c = turned(c, axis), t.n = turned(normal, axis);
-    t.low = clamp(ivec3(floor(min(min(t.a, t.b), t.c) - TOUCH)), ivec3(0), ivec3(n - 1));
-    t.high = clamp(ivec3(floor(max(max(t.a, t.b), t.c) + TOUCH)), ivec3(0), ivec3(n - 1));
+    vec3 lowest = min(min(t.a, t.b), t.c), highest = max(max(t.a, t.b), t.c), extent = highest - lowest;
+    t.low = clamp(ivec3(floor(lowest - TOUCH)), ivec3(0), ivec3(n - 1));
+    t.high = clamp(ivec3(floor(highest + TOUCH)), ivec3(0), ivec3(n - 1));
+    float side = max(max(extent.x, extent.y), extent.z);
+    t.slack = TOUCH + min(3e-7 * side * side * side / abs(t.n.z), float(n));
+    if (t.n.z == 0.0)
+        t.high = t.low - 1;
     return t;
+}
+
+// Unit normal, axes turned; scaled first, so that the square of no small one is lost.
+vec3 unit_normal(VoxelTriangle t)
+{
+    return normalize(t.n / abs(t.n.z));
 }
 
 // Do the triangle and the unit square at `cell` overlap, both projected on a plane? winding: sign of the projected area.
@@ -59,7 +76,7 @@ ivec2 column_range(VoxelTriangle t, ivec2 column)
 {
     vec2 slope = -t.n.xy / t.n.z;
     float middle = t.a.z + dot(slope, vec2(column) + 0.5 - t.a.xy);
-    float half_height = 0.5 * (abs(slope.x) + abs(slope.y)) + TOUCH;
+    float half_height = 0.5 * (abs(slope.x) + abs(slope.y)) + t.slack;
     return ivec2(max(int(floor(middle - half_height)), t.low.z), min(int(floor(middle + half_height)), t.high.z));
 }
 
@@ -104,7 +121,7 @@ vec4 clipped_part(VoxelTriangle t, ivec3 cell)
             clip_polygon(polygon, n, axis, 1.0, high[axis]);
     }
     float area = 0.0;
-    vec3 moment = vec3(0.0), normal = normalize(t.n);
+    vec3 moment = vec3(0.0), normal = unit_normal(t);
     for (int i = 1; i + 1 < n; i++) {
         float part = 0.5 * abs(dot(cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]), normal));
         area += part;

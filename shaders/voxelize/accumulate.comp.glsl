@@ -39,11 +39,10 @@ void accumulate(Tile tile, ivec3 cell)
     vec2 uv = HAS_TEXTURES ? uv_at(tile.triangle, barycentrics(tile.shape, part.xyz)) : vec2(0.0);
     uint material = material_of(tile.instance, tile.triangle);
     Shading s = shading_at(material, uv, HAS_TEXTURES);
-    uvec4 corners = triangles[tile.triangle];
-    vec3 a = vertex_ws(tile.instance, corners.x), b = vertex_ws(tile.instance, corners.y), c = vertex_ws(tile.instance, corners.z);
-    vec3 n = normalize(cross(b - a, c - a));
+    vec3 n = unit_normal(tile.shape);
+    float facing = abs(n.z);
+    n = turned_back(n, tile.shape.axis);
     vec3 albedo = clamp(s.base_color * (1.0 - materials[material].transmission), 0.0, 1.0);
-    float facing = max(max(abs(n.x), abs(n.y)), abs(n.z));
     add(at, area);
     for (int i = 0; i < 3; i++) {
         add(at + 1u + uint(i), area * albedo[i]);
