@@ -12,15 +12,22 @@ from .film import Film
 from .gpu.device import Device
 from .gpu.kept import Kept
 from .gpu.thread import GpuThread
+from .passes.bvh import build_bvh, build_meshes
+from .passes.cache import light_cache
 from .passes.debug import make_attribute, show_voxels
-from .passes.gather import gather, make_incident
-from .passes.light import LitVoxels, injection_of, light
-from .passes.raster import make_targets, raster
+from .passes.denoise import make_pictures, read_picture
+from .passes.gather import Incident, gather_cones, gather_rays, make_incident
+from .passes.light import injection_of, light
+from .passes.octree import build_octree
+from .passes.raster import GBuffer, make_targets, raster
 from .passes.resolve import GpuFilm, make_film, resolve
-from .passes.upload import upload
+from .passes.upload import GpuScene, upload
 from .passes.voxelize import voxelize
 from .scene.types import Scene, View
 from .settings import RenderSettings
+
+Stage = Callable[..., Any]
+Gather = Callable[[GBuffer, Incident, int], None]
 
 
 def render(scene: Scene, view: View, settings: RenderSettings, device: Device, kept: Kept) -> Iterator[GpuFilm]:
@@ -31,20 +38,22 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     with film.scope, kept.frame(device) as stage:
         with device.profiler.host("upload"):
             gpu_scene = stage("upload", upload, scene)
-        voxels = stage("voxelize", voxelize, gpu_scene, int(settings.resolution))
-        lit = stage("light", light, gpu_scene, voxels, injection_of(settings, gpu_scene, view))
         targets = stage("targets", make_targets, view.size)
-        if is_picture := settings.view == "combined":
-            incident = stage("incident", make_incident, view.size)
+        incident = stage("incident", make_incident, view.size)
+        gather, show = None, None
+        if settings.view != "combined":
+            show = _voxel_view(stage, device, gpu_scene, view, settings)
+        elif settings.method == "cones":
+            gather = _cones(stage, device, gpu_scene, view, settings)
         else:
-            values = _voxel_values(stage, lit, settings)
+            gather = _rays(stage, device, gpu_scene, settings)
         for sample in range(settings.samples):
-            gbuffer = raster(device, gpu_scene, view, targets, settings, sample)
-            if is_picture:
-                gather(device, gpu_scene, lit, gbuffer, incident, settings, sample)
+            gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample)
+            if gather:
+                gather(gbuffer, incident, sample)
                 resolve(device, gpu_scene, gbuffer, incident, film)
-            else:
-                show_voxels(device, voxels.grid, values, gbuffer, settings, film)
+            elif show:
+                show(gbuffer, film)
             is_late = 0 < settings.time_limit < time.monotonic() - started
             film.is_last = is_late or film.n_samples == settings.samples
             yield film
@@ -52,11 +61,33 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
                 return
 
 
-def _voxel_values(stage: Callable[..., Any], lit: LitVoxels, settings: RenderSettings) -> Any:
-    """What a debug view shows of the voxels."""
-    if settings.view == "voxel_radiance":
-        return lit.radiance
-    return stage("attribute", make_attribute, lit.voxels, settings.view == "voxel_normal").values
+def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settings: RenderSettings) -> Gather:
+    """Light in filtered voxels, gathered by cones: the thesis's way."""
+    voxels = stage("voxelize", voxelize, gpu_scene, int(settings.resolution))
+    lit = stage("light", light, gpu_scene, voxels, injection_of(settings, gpu_scene, view))
+    return lambda gbuffer, incident, sample: gather_cones(device, gpu_scene, lit, gbuffer, incident, settings,
+                                                          sample)
+
+
+def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings) -> Gather:
+    """Light on the surfaces in an octree, gathered by rays with exact hits."""
+    octree = stage("octree", build_octree, gpu_scene, int(settings.cache_resolution))
+    bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
+    cache = stage("cache", light_cache, gpu_scene, octree, bvh, settings.cache_rays, settings.injection_samples,
+                  settings.bounces)
+    return lambda gbuffer, incident, sample: gather_rays(device, gpu_scene, cache, bvh, gbuffer, incident,
+                                                         settings, sample)
+
+
+def _voxel_view(stage: Stage, device: Device, gpu_scene: GpuScene, view: View,
+                settings: RenderSettings) -> Callable[[GBuffer, GpuFilm], None]:
+    """The voxels of the thesis's way, drawn as they are."""
+    voxels = stage("voxelize", voxelize, gpu_scene, int(settings.resolution))
+    if settings.view in ("voxel_albedo", "voxel_normal"):
+        values = stage("attribute", make_attribute, voxels, settings.view == "voxel_normal").values
+    else:
+        values = stage("light", light, gpu_scene, voxels, injection_of(settings, gpu_scene, view)).radiance
+    return lambda gbuffer, film: show_voxels(device, voxels.grid, values, gbuffer, settings, film)
 
 
 class Session:
@@ -79,7 +110,7 @@ class Session:
             due = 0.0
             for film in render(scene, view, settings, device, kept):
                 if film.is_last or time.monotonic() >= due:
-                    yield _read(film, device, scene, settings)
+                    yield _read(film, device, kept, scene, settings)
                     due = time.monotonic() + interval
 
         yield from thread.iterate(read_films, should_stop)
@@ -102,9 +133,10 @@ class Session:
             return self._open
 
 
-def _read(film: GpuFilm, device: Device, scene: Scene, settings: RenderSettings) -> Film:
+def _read(film: GpuFilm, device: Device, kept: Kept, scene: Scene, settings: RenderSettings) -> Film:
     """The film on the host, with what it took."""
-    read = film.read(device)
+    with kept.frame(device) as stage:
+        read = read_picture(device, film, stage("pictures", make_pictures, film.size), settings.denoise)
     counts = {"triangles": scene.n_triangles, "lights": len(scene.lights), "samples": film.n_samples,
               "device bytes": device.n_bytes, **device.profiler.counts}
     read.stats.update(device=device.info["renderer"], times_ms=device.profiler.times_ms(), counts=counts,

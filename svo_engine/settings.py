@@ -26,9 +26,13 @@ def _setting(default: Any, label: str, description: str, group: str, **more: Any
     return field(default=default, metadata={"spec": Spec(label, description, group, **more)})
 
 
-METHODS = (("cones", "Cones", "Filtered voxels, gathered by cone tracing: smooth, quick, approximate"),)
-RESOLUTIONS = tuple((str(n), f"{n}\u00b3", f"{n} voxels along the longest side of the scene")
-                    for n in (32, 64, 128, 256))
+METHODS = (
+    ("rays", "Rays", "Rays with exact hits, lit from an octree: accurate"),
+    ("cones", "Cones", "Filtered voxels, gathered by cone tracing: smooth, quick, approximate"),
+)
+CACHE_RESOLUTIONS = tuple((str(n), f"{n}\u00b3", f"{n} voxels along the longest side of the scene")
+                          for n in (32, 64, 128, 256, 512, 1024))
+RESOLUTIONS = CACHE_RESOLUTIONS[:4]
 VIEWS = (
     ("combined", "Combined", "The picture"),
     ("voxel_albedo", "Voxel Albedo", "The voxels themselves, showing the colour of their surfaces"),
@@ -50,6 +54,16 @@ class RenderSettings:
     time_limit: float = _setting(0.0, "Time Limit", "Seconds after which no new sample is begun; 0 means no limit",
                                  "Sampling", low=0, high=86400, unit="s")
     seed: int = _setting(0, "Seed", "Another number gives another pattern of noise", "Sampling", low=0, high=2**31 - 1)
+    gather_rays: int = _setting(4, "Diffuse Rays", "Rays of each pixel and sample that look for indirect light", "Rays",
+                                low=1, high=64)
+    cache_resolution: str = _setting("64", "Light Cache",
+                                     "Voxels along the longest side of the octree that holds the light",
+                                     "Rays", choices=CACHE_RESOLUTIONS)
+    cache_rays: int = _setting(8, "Cache Rays", "Rays with which each surface in the octree gathers its light", "Rays",
+                               low=1, high=1024)
+    bounces: int = _setting(12, "Bounces", "Most bounces of diffuse light after the first", "Rays", low=0, high=1024)
+    denoise: bool = _setting(False, "Denoise", "Smooth what noise the samples leave; less and less as there are more",
+                             "Sampling")
     filter_width: float = _setting(1.5, "Filter Width", "Width of the Blackman-Harris pixel filter", "Film", low=0.01,
                                    high=10, unit="px")
     resolution: str = _setting("128", "Resolution", "Voxels along the longest side of the scene", "Voxel Grid",

@@ -13,7 +13,7 @@ layout(std430) readonly buffer SlotMaterials { uint slot_materials[]; };
 
 struct Surface {
     vec3 position;
-    vec3 normal_geometric;  // unit, as the triangle is wound
+    vec3 normal_geometric;  // unit, as the mesh winds its triangle; turned round with an instance that mirrors
     vec3 normal;            // unit, shading normal
     vec3 tangent;           // along u, not normalised; zero without texture coordinates
     vec3 bitangent;         // along v, not normalised
@@ -27,12 +27,17 @@ vec3 to_world(Instance instance, vec3 p_os)
     return vec3(dot(instance.row_x, p), dot(instance.row_y, p), dot(instance.row_z, p));
 }
 
+// 1, or -1 for an instance that mirrors its mesh: it turns round the way in which triangles are wound.
+float handedness(Instance instance)
+{
+    return dot(cross(instance.row_x.xyz, instance.row_y.xyz), instance.row_z.xyz) < 0.0 ? -1.0 : 1.0;
+}
+
 // Normals go by the cofactors, which are the inverse transpose times the determinant.
 vec3 normal_to_world(Instance instance, vec3 n_os)
 {
     vec3 x = instance.row_x.xyz, y = instance.row_y.xyz, z = instance.row_z.xyz;
-    vec3 n = vec3(dot(cross(y, z), n_os), dot(cross(z, x), n_os), dot(cross(x, y), n_os));
-    return dot(cross(x, y), z) < 0.0 ? -n : n;
+    return handedness(instance) * vec3(dot(cross(y, z), n_os), dot(cross(z, x), n_os), dot(cross(x, y), n_os));
 }
 
 vec3 vertex_os(uint vertex)
@@ -64,7 +69,7 @@ Surface surface_at(uint instance, uint triangle, vec2 bary, bool has_uvs)
     vec3 ab = b - a, ac = c - a;
     Surface s;
     s.position = a + bary.x * ab + bary.y * ac;
-    s.normal_geometric = normalize(cross(ab, ac));
+    s.normal_geometric = handedness(instances[instance]) * normalize(cross(ab, ac));
     vec3 na = unpack_unit(corner_normals[3u * triangle]), nb = unpack_unit(corner_normals[3u * triangle + 1u]),
          nc = unpack_unit(corner_normals[3u * triangle + 2u]);
     vec3 n = normal_to_world(instances[instance], na + bary.x * (nb - na) + bary.y * (nc - na));

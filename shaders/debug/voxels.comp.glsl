@@ -6,11 +6,12 @@
 
 #include "bind/camera.glsl"
 #include "bind/grid.glsl"
+#include "lib/layouts.glsl"
 #include "lib/math.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(rgba32f) uniform image2D u_film;
+layout(rgba32f) uniform image2DArray u_film;
 uniform sampler3D u_attribute;
 
 uniform uint u_first;
@@ -64,5 +65,6 @@ void main()
     camera_ray(vec2(pixel) + 0.5, origin, direction);
     float texels_per_voxel = exp2(-float(u_lod));
     vec4 value = first_texel(to_voxels(origin) * texels_per_voxel, direction, u_grid_n >> u_lod);
-    imageStore(u_film, pixel, imageLoad(u_film, pixel) + value);
+    ivec3 at = ivec3(pixel, int(PLANE_COMBINED));
+    imageStore(u_film, at, imageLoad(u_film, at) + value);
 }

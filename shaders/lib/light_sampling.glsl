@@ -10,8 +10,6 @@ struct LightSample {
     vec3 E_perp;     // mean over u in [0,1)^2 is the lamp's unshadowed irradiance
 };
 
-const float INFINITE = 1e30;
-
 // A sphere of radius r radiates L = I / (pi r^2). Directions uniform in the solid angle that it covers,
 // omega = 2 pi (1 - cos) with sin = r / d, give L omega = 2 I / (d^2 (1 + cos)): right for r = 0 too.
 LightSample sample_sphere(Light light, vec3 p, vec2 u)

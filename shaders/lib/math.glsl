@@ -2,6 +2,7 @@
 // Purpose: constants, unit vectors in 32 bits, frames, quasi-random numbers.
 
 const float PI = 3.14159265358979;
+const float INFINITE = 1e30;  // farther than anything
 
 // Octahedral unit vector as two 16-bit signed normals [Meyer10]; within 1e-4 of the original.
 uint pack_unit(vec3 v)
@@ -55,6 +56,13 @@ vec2 disk_point(vec2 u)
     float r = wide ? p.x : p.y;
     float phi = wide ? PI / 4.0 * p.y / p.x : PI / 2.0 - PI / 4.0 * p.x / p.y;
     return r * vec2(cos(phi), sin(phi));
+}
+
+// Direction around +z, distributed as its cosine over pi.
+vec3 cosine_direction(vec2 u)
+{
+    vec2 p = disk_point(u);
+    return vec3(p, sqrt(max(1.0 - dot(p, p), 0.0)));
 }
 
 // Pixel of invocation i: the picture in tiles of 8 by 8, so that neighbours work on the same things.

@@ -2,7 +2,7 @@
 // Purpose:    the light that leaves each pixel towards the eye, added to the film.
 // Formula:    L = Le + rho_d / pi (E_direct + E_indirect) + L_specular; a pixel without a surface shows the world
 // In:         G-buffer, scene, world, incident light
-// Out:        u_film: sums of premultiplied RGBA; the host divides by the number of samples
+// Out:        u_film: sums in the layers PLANE_*; denoise/compose divides by the number of samples
 // Invocation: one pixel
 
 #include "bind/gbuffer.glsl"
@@ -14,7 +14,7 @@ const bool HAS_SPECULAR = true;
 
 layout(local_size_x = 64) in;
 
-layout(rgba32f) uniform image2D u_film;
+layout(rgba32f) uniform image2DArray u_film;
 uniform sampler2D u_irradiance_direct;
 uniform sampler2D u_irradiance_indirect;
 uniform sampler2D u_specular;
@@ -34,6 +34,18 @@ vec3 diffuse_albedo(Seen seen)
     return rho * max(1.0 - (dielectric_f0(m.ior, m.specular_level) * ab.x + ab.y), 0.0);
 }
 
+void add(ivec2 pixel, uint plane, vec4 value)
+{
+    ivec3 at = ivec3(pixel, int(plane));
+    imageStore(u_film, at, imageLoad(u_film, at) + value);
+}
+
+float luminance_squared(vec3 c)
+{
+    float y = dot(c, vec3(0.2126, 0.7152, 0.0722));
+    return y * y;
+}
+
 void main()
 {
     uint index = u_first + gl_GlobalInvocationID.x;
@@ -43,10 +55,16 @@ void main()
     Seen seen = seen_at(pixel, HAS_TEXTURES);
     vec4 color = vec4(0.0);
     if (seen.hit) {
-        vec3 E = texelFetch(u_irradiance_direct, pixel, 0).rgb + texelFetch(u_irradiance_indirect, pixel, 0).rgb;
-        color = vec4(seen.shading.emission + diffuse_albedo(seen) * E / PI + texelFetch(u_specular, pixel, 0).rgb, 1.0);
+        vec3 direct = texelFetch(u_irradiance_direct, pixel, 0).rgb, indirect = texelFetch(u_irradiance_indirect, pixel, 0).rgb;
+        vec3 rho = diffuse_albedo(seen), eye, d;
+        camera_ray(vec2(pixel) + 0.5, eye, d);
+        color = vec4(seen.shading.emission + rho * (direct + indirect) / PI + texelFetch(u_specular, pixel, 0).rgb, 1.0);
+        add(pixel, PLANE_DIFFUSE_DIRECT, vec4(rho / PI * direct, luminance_squared(direct)));
+        add(pixel, PLANE_DIFFUSE_INDIRECT, vec4(rho / PI * indirect, luminance_squared(indirect)));
+        add(pixel, PLANE_DIFFUSE_COLOR, vec4(rho, 1.0));
+        add(pixel, PLANE_NORMAL_DEPTH, vec4(seen.surface.normal, distance(eye, seen.surface.position)));
     } else if (!u_film_transparent) {
         color = vec4(world_radiance(-seen.wo, 0.0), 1.0);
     }
-    imageStore(u_film, pixel, imageLoad(u_film, pixel) + color);
+    add(pixel, PLANE_COMBINED, color);
 }

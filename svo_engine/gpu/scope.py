@@ -59,15 +59,21 @@ class GpuScope:
     def texture(self, label: str, size: tuple[int, int], components: int, dtype: str,
                 data: np.ndarray | None = None) -> moderngl.Texture:
         """A 2D texture, nearest filter, clamped. dtype as in moderngl: f1 f2 f4 u1 u4 i4 ..."""
-        largest = self.device.limits["GL_MAX_TEXTURE_SIZE"]
-        if max(size) > largest:
-            raise GpuError(f"Texture '{label}' needs {size[0]}x{size[1]} pixels, the device allows {largest} a side "
-                           "(GL_MAX_TEXTURE_SIZE)")
+        self._check_size(label, size)
         raw = None if data is None else np.ascontiguousarray(data).tobytes()
         made = self._make(label, size[0] * size[1] * components * _BYTES[dtype],
                           lambda: self.device.ctx.texture(size, components, raw, dtype=dtype, alignment=1))
         made.filter = moderngl.NEAREST, moderngl.NEAREST
         made.repeat_x = made.repeat_y = False
+        return made
+
+    def layers(self, label: str, size: tuple[int, int], n: int) -> moderngl.TextureArray:
+        """n pictures of `size` pixels RGBA f4, zeros, to be sampled without a filter or bound as one image."""
+        self._check_size(label, size)
+        n_bytes = size[0] * size[1] * n * 16
+        made = self._make(label, n_bytes,
+                          lambda: self.device.ctx.texture_array((*size, n), 4, bytes(n_bytes), dtype="f4"))
+        made.filter = moderngl.NEAREST, moderngl.NEAREST
         return made
 
     def cube(self, label: str, n: int) -> Cube:
@@ -86,6 +92,12 @@ class GpuScope:
             depth = self._make(f"{label} depth", size[0] * size[1] * 4,
                                lambda: self.device.ctx.depth_renderbuffer(size))
         return self._make(label, 0, lambda: self.device.ctx.framebuffer(colors, depth))
+
+    def _check_size(self, label: str, size: tuple[int, int]) -> None:
+        largest = self.device.limits["GL_MAX_TEXTURE_SIZE"]
+        if max(size) > largest:
+            raise GpuError(f"Texture '{label}' needs {size[0]}x{size[1]} pixels, the device allows {largest} a side "
+                           "(GL_MAX_TEXTURE_SIZE)")
 
     def _make(self, label: str, n_bytes: int, create: Any) -> Any:
         try:

@@ -22,7 +22,8 @@ from ..scene.types import Mesh
 from .upload import GpuScene
 from .voxelize import scan
 
-BVH = ("BvhNodes", "BvhTriangles", "BvhInstances", "u_bvh_root", "u_bvh_extent")
+TRACE = ("BvhNodes", "BvhTriangles", "BvhInstances")
+TRACE_UNIFORMS = ("u_bvh_root", "u_bvh_extent")
 
 NEAREST = Pass(("bvh/nearest.comp.glsl",), ("Clusters", "Neighbours"),
                uniforms=("u_n_clusters", "u_max_height", "u_take_next"))

@@ -44,6 +44,6 @@ def show_voxels(device: Device, grid: Grid, values: Cube, gbuffer: GBuffer, sett
     """Add one sample to `film`: the first filled texel of the asked mip level of `values` along each pixel's ray."""
     lod = min(settings.view_lod, grid.n.bit_length() - 1)
     constants = {"SHADE_FACES": settings.view == "voxel_albedo", "SHOW_OPACITY": settings.view == "voxel_coverage"}
-    device.dispatch(VOXELS, gbuffer.n_invocations, constants, u_attribute=values, u_film=film.combined,
+    device.dispatch(VOXELS, gbuffer.n_invocations, constants, u_attribute=values, u_film=film.sums,
                     **gbuffer.camera(), **grid.uniforms(), u_lod=lod)
     film.n_samples += 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""GBuffer and LitVoxels -> Incident: the light that arrives at each pixel, by cones."""
+"""GBuffer and LitVoxels or LightCache -> Incident: the light that arrives at each pixel, by cones or by rays."""
 
 from __future__ import annotations
 
@@ -11,19 +11,25 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..settings import RenderSettings
+from .bvh import TRACE, TRACE_UNIFORMS, Bvh
+from .cache import CACHE, CACHE_UNIFORMS, WORLD, LightCache
 from .light import LitVoxels
 from .raster import GBuffer
 from .upload import GpuScene
 from .voxelize import GEOMETRY, GRID, MATERIALS
 
-WORLD = ("u_world_radiance", "u_env_from_world", "u_has_env")
-CAMERA = ("u_world_from_clip", "u_size")
+CAMERA = ("u_ray_origin", "u_ray_direction", "u_size")
 PLANES = ("u_irradiance_direct", "u_irradiance_indirect", "u_specular")
 
 CONES = Pass(("gather/cones.comp.glsl",), (*GEOMETRY, *MATERIALS, "Lights"),
              textures=("u_visibility", "u_env", "u_radiance"), images=PLANES,
              uniforms=(*CAMERA, *WORLD, *GRID, "u_cone_offset", "u_cone_step", "u_cone_distance", "u_sample", "u_seed",
                        "u_ring_angle", "u_tan_half_aperture", "u_tan_half_shadow", "u_specular_cone"))
+
+
+RAYS = Pass(("gather/rays.comp.glsl",), (*GEOMETRY, *MATERIALS, *TRACE, *CACHE, "Lights"),
+            textures=("u_visibility", "u_env"), images=PLANES,
+            uniforms=(*CAMERA, *WORLD, *CACHE_UNIFORMS, *TRACE_UNIFORMS, "u_sample", "u_seed"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +46,7 @@ def make_incident(device: Device, size: tuple[int, int]) -> Incident:
     return Incident(scope, {name: scope.texture(name, size, 4, "f4") for name in PLANES})
 
 
-def gather(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: GBuffer, incident: Incident,
+def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: GBuffer, incident: Incident,
            settings: RenderSettings, sample: int) -> None:
     """Fill `incident` for one sample by cone tracing."""
     grid = lit.voxels.grid
@@ -53,3 +59,16 @@ def gather(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: GBuffer
         u_cone_distance=settings.cone_distance * grid.n, u_sample=sample, u_seed=settings.seed,
         u_ring_angle=settings.cone_ring_angle, u_tan_half_aperture=tan(settings.cone_aperture / 2),
         u_tan_half_shadow=tan(settings.shadow_aperture / 2), u_specular_cone=settings.specular_cone)
+
+
+def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh, gbuffer: GBuffer, incident: Incident,
+                settings: RenderSettings, sample: int) -> None:
+    """Fill `incident` for one sample by rays."""
+    constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "HAS_TEXTURES": gpu_scene.has_textures,
+                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_SPECULAR": gpu_scene.has_specular,
+                 "HAS_ALPHA": gpu_scene.has_alpha,
+                 "N_RAYS": settings.gather_rays, **bvh.constants()}
+    device.dispatch(
+        RAYS, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
+        **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), **incident.planes, Lights=gpu_scene.lights,
+        u_sample=sample, u_seed=settings.seed)

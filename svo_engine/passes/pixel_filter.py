@@ -12,6 +12,10 @@ import numpy as np
 
 _TERMS = (0.35875, -0.48829, 0.14128, -0.01168)
 
+# Steps of the R3 sequence along two of its axes [Roberts18]. Those of R2 choose points on lamps and cut-outs: were they
+# the same, each part of a pixel would see only part of a lamp.
+_STEPS = np.array([0.8191725133961645, 0.6710436067037893])
+
 
 def blackman_harris(x: np.ndarray) -> np.ndarray:
     """The window at x in [-1/2, 1/2], 1 in the middle."""
@@ -27,11 +31,11 @@ def _inverse_cdf() -> tuple[np.ndarray, np.ndarray]:
 
 
 def jitter(sample: int, seed: int, width: float) -> tuple[float, float]:
-    """Offset (x, y) in pixels from the pixel's centre of sample number `sample`, by the R2 sequence [Roberts18].
+    """Offset (x, y) in pixels from the pixel's centre of sample number `sample`.
 
     The first sample of seed 0 lies in the centre.
     """
     start = np.random.default_rng(seed).random(2) if seed else np.array([0.5, 0.5])
-    u = (start + sample * np.array([0.7548776662466927, 0.5698402909980532])) % 1.0
+    u = (start + sample * _STEPS) % 1.0
     x, y = np.interp(u, *_inverse_cdf()) * width
     return float(x), float(y)

@@ -50,7 +50,22 @@ class GBuffer:
 
     def camera(self) -> dict[str, Any]:
         """The uniforms of bind/camera.glsl."""
-        return {"u_world_from_clip": self.world_from_clip, "u_size": self.targets.size}
+        origin, direction = rays(self.world_from_clip)
+        return {"u_ray_origin": origin, "u_ray_direction": direction, "u_size": self.targets.size}
+
+
+def rays(world_from_clip: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Matrices (3, 3) f8 that give a ray's origin on the near plane and its direction, any length, from (x, y, 1) in clip
+    space. Taken from the planes in doubles: where far is 1e8 times near, f4 has nothing left of the difference.
+    """
+    def corners(z: float) -> np.ndarray:
+        points = world_from_clip @ np.array([[0.0, 1, 0], [0, 0, 1], [z, z, z], [1, 1, 1]])
+        middle, right, top = (points[:3] / points[3]).T
+        return np.stack([right - middle, top - middle, middle], 1)
+
+    near, far = corners(-1), corners(1)
+    direction = far - near
+    return near, direction / np.linalg.norm(direction[:, 2])
 
 
 def make_targets(device: Device, size: tuple[int, int]) -> Targets:

@@ -21,14 +21,14 @@ from .upload import GpuScene
 GEOMETRY = ("Instances", "Positions", "Triangles", "CornerNormals", "CornerUvs", "SlotMaterials")
 MATERIALS = ("Materials", "Textures", "Texels")
 GRID = ("u_grid_n", "u_grid_low", "u_voxels_per_metre")
-_WORK = (*GRID, "u_n_instances", "u_n_work")
+WORK = (*GRID, "u_n_instances", "u_n_work")
 
-COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "TileFirst"), uniforms=_WORK)
-MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "TileFirst", "Occupancy"), uniforms=_WORK)
+COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "TileFirst"), uniforms=WORK)
+MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "TileFirst", "Occupancy"), uniforms=WORK)
 COUNT_BITS = Pass(("voxelize/count_bits.comp.glsl",), ("Bits", "BitFirst"))
 ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
                   (*GEOMETRY, *MATERIALS, "TileFirst", "Occupancy", "VoxelFirst", "Sums"),
-                  uniforms=(*_WORK, "u_emission_unit"))
+                  uniforms=(*WORK, "u_emission_unit"))
 AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Occupancy", "VoxelFirst", "Sums", "Voxels"),
                uniforms=(*GRID, "u_emission_unit"))
 SCAN = Pass(("voxelize/scan.comp.glsl",), ("Counts", "BlockSums"), uniforms=("u_n_counts",))

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose:    the mean irradiance of one kind (lamps or indirect) without the surface's colour, and the variance of that mean.
+// Formula:    E = pi sum(rho E / pi) / sum(rho); var = (sum(Y^2) / n - Y^2) / (n - 1), with few samples estimated from the
+//             pixels around [Schied17]
+// In:         u_film, u_n_samples
+// Out:        u_light: rgb E [W m^-2], a variance of its luminance; negative where there is no diffuse surface
+// Invocation: one pixel
+
+#include "lib/layouts.glsl"
+#include "lib/math.glsl"
+
+const uint PLANE = 1u;      // PLANE_DIFFUSE_DIRECT or _INDIRECT
+const float FEW = 4.0;      // samples below which a pixel alone does not tell its variance
+const int RADIUS = 3;
+
+layout(local_size_x = 64) in;
+
+layout(rgba32f) uniform writeonly image2D u_light;
+uniform sampler2DArray u_film;
+
+uniform uint u_first;
+uniform uint u_end;
+uniform ivec2 u_size;
+uniform float u_n_samples;
+
+vec3 irradiance(ivec2 pixel, vec3 color)
+{
+    return PI * texelFetch(u_film, ivec3(pixel, PLANE), 0).rgb / max(color, 1e-4 * u_n_samples);
+}
+
+float luminance(vec3 c)
+{
+    return dot(c, vec3(0.2126, 0.7152, 0.0722));
+}
+
+// Variance of one sample, from the luminances of like surfaces around.
+float spatial_variance(ivec2 pixel)
+{
+    vec3 n = normalize(texelFetch(u_film, ivec3(pixel, PLANE_NORMAL_DEPTH), 0).xyz + 1e-9);
+    float sum = 0.0, squares = 0.0, weight = 0.0;
+    for (int y = -RADIUS; y <= RADIUS; y++)
+        for (int x = -RADIUS; x <= RADIUS; x++) {
+            ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), u_size - 1);
+            vec4 color = texelFetch(u_film, ivec3(at, PLANE_DIFFUSE_COLOR), 0);
+            vec3 other = normalize(texelFetch(u_film, ivec3(at, PLANE_NORMAL_DEPTH), 0).xyz + 1e-9);
+            float w = color.a > 0.0 ? pow(max(dot(n, other), 0.0), 32.0) : 0.0, Y = luminance(irradiance(at, color.rgb));
+            sum += w * Y, squares += w * Y * Y, weight += w;
+        }
+    float mean = sum / max(weight, 1e-6);
+    return max(squares / max(weight, 1e-6) - mean * mean, 0.0);
+}
+
+void main()
+{
+    uint index = u_first + gl_GlobalInvocationID.x;
+    ivec2 pixel = tiled_pixel(index, u_size);
+    if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
+        return;
+    vec4 color = texelFetch(u_film, ivec3(pixel, PLANE_DIFFUSE_COLOR), 0);
+    if (max(color.r, max(color.g, color.b)) <= 1e-3 * color.a) {
+        imageStore(u_light, pixel, vec4(0.0, 0.0, 0.0, -1.0));
+        return;
+    }
+    vec3 E = irradiance(pixel, color.rgb);
+    float Y = luminance(E), n = color.a, variance;
+    if (u_n_samples < FEW)
+        variance = spatial_variance(pixel);
+    else
+        variance = max(texelFetch(u_film, ivec3(pixel, PLANE), 0).a / n - Y * Y, 0.0) / max(n - 1.0, 1.0);
+    imageStore(u_light, pixel, vec4(E, variance));
+}
