@@ -17,11 +17,12 @@ from ..errors import SceneError, SvoError
 from ..scene.types import Scene
 from ..settings import RenderSettings, with_text
 from . import register, session, unregister
-from .comparison import Comparison, render_result
+from .comparison import Comparison
 from .comparison import compare as compare_runs
 from .extract import extract
 from .host_errors import as_svo_errors
 from .properties import settings_of
+from .render_watch import render_result
 from .runs import cycles_run, svo_run
 
 Texts = Sequence[tuple[str, str]]

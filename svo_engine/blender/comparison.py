@@ -7,9 +7,8 @@ import json
 import math
 import platform
 import tempfile
-import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Generator, Iterator
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -18,13 +17,14 @@ import bpy
 import numpy as np
 
 from .. import __version__
-from ..errors import Cancelled, SvoError
+from ..errors import SvoError
 from ..film import encode_srgb
 from ..metrics import Errors, difference_heatmap, errors
 from . import session
 from .host_errors import as_svo_errors
 from .montage import side_by_side
 from .preserve import change
+from .render_watch import no_new_render_result, render_result, seconds_of_render
 from .runs import Run
 
 # One picture, of the border alone if there is one, with nothing done to it after the render
@@ -50,32 +50,49 @@ class Comparison:
                 + (f", {n_bad} pixels not finite" if n_bad else ""))
 
 
-def compare(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, folder: Path, ours: Run, reference: Run,
-            progress: Callable[[int], None] = lambda n_done: None) -> Comparison:
-    """Render `layer` at the current frame twice, blocking, and measure.
+def compare(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, folder: Path, ours: Run, reference: Run) -> Comparison:
+    """All `steps` at once, while Blender waits. SvoError if a render fails, too; Cancelled if it is stopped."""
+    with closing(steps(scene, layer, folder, ours, reference)) as todo:
+        try:
+            next(todo)
+            while True:
+                todo.send(seconds_of_render(scene))
+        except StopIteration as done:
+            return done.value
 
-    Writes an EXR of each run, comparison.png and comparison.json into `folder`, which is made if need be. Afterwards,
-    whatever happens, the scene is as it was; only the Render Result shows another picture. SvoError if a render fails
-    or a file cannot be written; Cancelled by Esc.
+
+def steps(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, folder: Path, ours: Run,
+          reference: Run) -> Generator[None, float, Comparison]:
+    """Render `layer` at the current frame twice, and measure: at each yield the caller makes Blender render `scene`
+    and sends the seconds that it took.
+
+    Writes an EXR of each run, comparison.png and comparison.json into `folder`, which is made if need be. When this
+    ends or is closed, the scene is as it was; only the Render Result shows another picture. SvoError if there is no
+    such engine or a file cannot be written.
     """
     _make_folder(folder)
     runs, found_of, images = (ours, reference), {}, []
-    with _no_new_render_result():
-        for n_done, run in enumerate(runs):
-            progress(n_done)
-            found_of[run.name] = _render(scene, layer, run, folder / f"{run.name}.exr")
-            images.append(_load(folder / f"{run.name}.exr"))
-        progress(len(runs))
-    seconds = found_of[ours.name]["seconds"], found_of[reference.name]["seconds"]
-    found = Comparison(errors(*images), seconds, folder / "comparison.png")
+    with no_new_render_result():
+        for run in runs:
+            path = folder / f"{run.name}.exr"
+            with _prepared(scene, layer, run):
+                seconds = yield
+                with as_svo_errors():
+                    bpy.data.images[render_result()].save_render(str(path), scene=scene)
+                found_of[run.name] = {"engine": run.engine, "picture": path.name, "seconds": seconds,
+                                      **run.describe(scene)}
+            images.append(_load(path))
+    all_seconds = found_of[ours.name]["seconds"], found_of[reference.name]["seconds"]
+    found = Comparison(errors(*images), all_seconds, folder / "comparison.png")
     _save(_montage(scene, runs, images, found), found.picture)
     report = {"errors": asdict(found.errors), **found_of, **_circumstances(scene, layer, images[0])}
     _write_json(report, folder / "comparison.json")
     return found
 
 
-def _render(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, run: Run, path: Path) -> dict[str, Any]:
-    """Render, write the scene-linear floats to `path`, put all settings back and say what it took."""
+@contextmanager
+def _prepared(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, run: Run) -> Iterator[None]:
+    """All settings as `run` needs them."""
     with ExitStack() as until_done:
         change(until_done, scene.render, **_RENDER)
         for other in scene.view_layers:
@@ -87,10 +104,7 @@ def _render(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, run: Run, path: 
             raise SvoError(f"Blender has no render engine {run.engine}: enable its add-on") from None
         change(until_done, getattr(scene, run.group), **run.values)
         session.last_stats.clear()
-        seconds = _timed_render(scene)
-        with as_svo_errors():
-            bpy.data.images[render_result()].save_render(str(path), scene=scene)
-        return {"engine": run.engine, "picture": path.name, "seconds": seconds, **run.describe(scene)}
+        yield
 
 
 def _write_floats(until_done: ExitStack, image: bpy.types.ImageFormatSettings) -> None:
@@ -105,42 +119,6 @@ def _write_floats(until_done: ExitStack, image: bpy.types.ImageFormatSettings) -
     change(until_done, image, **_FILE)
     if image.color_management == "OVERRIDE":
         space.is_data = True  # no conversion into the user's own space
-
-
-def _timed_render(scene: bpy.types.Scene) -> float:
-    """Seconds that Blender's render operator took; Cancelled if the user stopped it."""
-    was_cancelled = []
-
-    def notice(*_: Any) -> None:
-        was_cancelled.append(True)
-
-    bpy.app.handlers.render_cancel.append(notice)
-    try:
-        started = time.perf_counter()
-        with as_svo_errors():
-            bpy.ops.render.render(scene=scene.name)
-        seconds = time.perf_counter() - started
-    finally:
-        bpy.app.handlers.render_cancel.remove(notice)
-    if was_cancelled:
-        raise Cancelled("The comparison was cancelled")
-    return seconds
-
-
-def render_result() -> str:
-    """Name of the image that shows renders; empty before the first one."""
-    return next((image.name for image in bpy.data.images if image.type == "RENDER_RESULT"), "")
-
-
-@contextmanager
-def _no_new_render_result() -> Iterator[None]:
-    """Leave no Render Result behind where there was none."""
-    had_one = bool(render_result())
-    try:
-        yield
-    finally:
-        if not had_one and (name := render_result()):
-            bpy.data.images.remove(bpy.data.images[name])
 
 
 def _load(path: Path) -> np.ndarray:

@@ -17,7 +17,7 @@ from PIL import Image as PillowImage
 
 from svo_engine.blender import compare as operator
 from svo_engine.blender import session
-from svo_engine.blender.comparison import compare
+from svo_engine.blender.comparison import compare, steps
 from svo_engine.blender.runs import Run, cycles_run, svo_run
 from svo_engine.errors import Cancelled, GpuError, SvoError
 from svo_engine.film import encode_srgb
@@ -67,9 +67,9 @@ def scene(empty, extension):
 @pytest.fixture
 def paint(scene, tmp_path):
     """Compare the paintings of the two given functions; the Comparison."""
-    def run(*paints, ours=OURS, reference=REFERENCE, layer=None, folder=tmp_path, **more):
+    def run(*paints, ours=OURS, reference=REFERENCE, layer=None, folder=tmp_path):
         Painter.paints = list(paints)
-        return compare(scene, layer or scene.view_layers[0], folder, ours, reference, **more)
+        return compare(scene, layer or scene.view_layers[0], folder, ours, reference)
 
     return run
 
@@ -199,7 +199,9 @@ def state(scene):
     space = "render.image_settings.linear_colorspace_settings.name"
     if found[space] == ("", True):  # Blender fills it in at the first change of the format, and takes no empty one
         found[space] = ("sRGB", True)
-    return found | blocks | {"frame": (scene.frame_current, scene.frame_subframe), "camera": scene.camera.name}
+    handlers = bpy.app.handlers.render_cancel, bpy.app.handlers.render_complete
+    return found | blocks | {"frame": (scene.frame_current, scene.frame_subframe), "camera": scene.camera.name,
+                             "handlers": [len(functions) for functions in handlers]}
 
 
 def disturb(scene):
@@ -241,7 +243,6 @@ def fail(_scene):
 def test_scene_is_left_as_it_was(paint, scene, prepare, ending, change, error):
     prepare(scene)
     before = state(scene)
-    handlers = len(bpy.app.handlers.render_cancel)
     run = replace(cycles_run(scene, samples=3, bounces=1), engine="TEST_PAINTER", describe=lambda _scene: {})
     reference = replace(run, **change)
     if error is None:
@@ -250,7 +251,6 @@ def test_scene_is_left_as_it_was(paint, scene, prepare, ending, change, error):
         with pytest.raises((SvoError, TypeError), match=error):
             paint(plain(1), ending, reference=reference)
     assert state(scene) == before
-    assert len(bpy.app.handlers.render_cancel) == handlers
 
 
 def test_cancel_is_told_apart_from_an_error(paint):
@@ -289,12 +289,6 @@ def test_stats_of_an_earlier_render_are_not_taken_for_this_one(paint, monkeypatc
         paint(plain(1), ours=replace(svo_run(), engine="TEST_PAINTER"))
 
 
-def test_progress_counts_the_renders(paint):
-    seen: list[int] = []
-    paint(plain(1), plain(1), progress=seen.append)
-    assert seen == [0, 1, 2]
-
-
 def test_cycles_equals_itself_and_names_its_settings(scene, tmp_path):
     bpy.ops.mesh.primitive_plane_add(location=(0, 0, -5))
     bpy.ops.object.light_add(type="POINT", location=(1, 0, -2))
@@ -321,9 +315,47 @@ def test_operator_compares_the_frame_with_cycles(scene, tmp_path, capfd):
     assert bpy.ops.svo.compare(samples=1, directory=str(tmp_path)) == {"FINISHED"}
     assert {path.name for path in tmp_path.iterdir()} == {"svo.exr", "cycles.exr", "comparison.png", "comparison.json"}
     report = json.loads((tmp_path / "comparison.json").read_text())
-    assert report["svo"]["settings"]["method"] == "cones"
+    assert report["svo"]["settings"]["method"] == scene.svo.method
     assert report["svo"]["times_ms"] == {"paint": 0.0}
     assert "NRMSE" in capfd.readouterr().out
+    assert state(scene) == before
+
+
+@pytest.fixture
+def start(scene, tmp_path):
+    """Begin what the operator does in a window; without one, Blender renders while `advance` waits."""
+    def job(*paints):
+        Painter.paints = list(paints)
+        return operator.Job(scene, steps(scene, scene.view_layers[0], tmp_path, OURS, REFERENCE))
+
+    return job
+
+
+def test_job_renders_step_by_step(start, tmp_path):
+    with start(plain(0.5), plain(0.25)) as job:
+        assert [job.advance(), len(Painter.paints)] == [None, 1]
+        assert [job.advance(), len(Painter.paints)] == [None, 0]
+        assert job.advance().errors.nrmse == 1
+    assert (tmp_path / "comparison.json").exists()
+
+
+@pytest.mark.parametrize("n_steps", [0, 1, 2])
+def test_job_that_is_given_up_leaves_the_scene_as_it_was(start, scene, n_steps):
+    before = state(scene)
+    with start(plain(1), plain(1)) as job:
+        for _ in range(n_steps):
+            job.advance()
+        assert (state(scene) != before) == (n_steps > 0)
+    assert state(scene) == before
+
+
+def test_job_that_is_cancelled_leaves_the_scene_as_it_was(start, scene):
+    before = state(scene)
+    with start(plain(1), cancel) as job:
+        job.advance()
+        job.advance()
+        with pytest.raises(Cancelled):
+            job.advance()
     assert state(scene) == before
 
 
