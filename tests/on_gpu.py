@@ -8,13 +8,19 @@ pytest runs, as a user's call does. No test takes both.
 from __future__ import annotations
 
 import atexit
+from dataclasses import replace
 from functools import cache
+from typing import Any
 
+import numpy as np
 import pytest
 
+from svo_engine.film import Film
 from svo_engine.gpu.device import Device
 from svo_engine.gpu.thread import GpuThread
 from svo_engine.render import Session
+from svo_engine.scene.types import Scene, View
+from tests import scenes
 
 
 @cache
@@ -38,6 +44,17 @@ def session() -> Session:
 def device() -> Device:
     """The device of that session."""
     return _thread().call(lambda device: device)
+
+
+def film_of(session: Session, scene: Scene, through: View | None = None, **settings: Any) -> Film:
+    """The last Film of `scene`, small, with some settings changed."""
+    films = session.films(scene, through or scenes.view(scene), replace(scenes.SMALL, **settings))
+    return list(films)[-1]
+
+
+def picture_of(session: Session, scene: Scene, through: View | None = None, **settings: Any) -> np.ndarray:
+    """The Combined plane of that film, (height, width, 4) f4."""
+    return film_of(session, scene, through, **settings).planes["Combined"]
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -16,8 +16,8 @@ from svo_engine.settings import RenderSettings
 
 Vec = Sequence[float]
 
-# Quick on a processor
-SMALL = RenderSettings(samples=1, resolution="32")
+# Quick on a processor, and what the passes made, unsmoothed
+SMALL = RenderSettings(method="cones", samples=1, resolution="32", denoise=False)
 
 # Nothing but diffuse reflection, so that closed forms hold
 WHITE = Material("White", (0.8, 0.8, 0.8), specular_level=0)
@@ -96,22 +96,27 @@ def moved(x: float = 0, y: float = 0, z: float = 0) -> np.ndarray:
 
 def lamp(kind: LightKind, eye: Vec, target: Vec = (0, 0, 0), emitted: float = 1.0, **more: Any) -> Light:
     """A grey lamp at `eye` that shines at `target`."""
+    target = target if tuple(target) != tuple(eye) else (eye[0], eye[1], eye[2] - 1)
     up = (0, 1, 0) if np.allclose(np.cross(np.subtract(eye, target), (0, 0, 1)), 0) else (0, 0, 1)
     return Light(kind.title(), kind, look(eye, target, up), (emitted, emitted, emitted), **more)
 
 
-def cornell(*lights: Light, **more: Any) -> Scene:
-    """A box 2 m wide, open towards -y, with a red and a green wall and a block; one small lamp by default."""
-    things = (
+def room() -> tuple[Thing, ...]:
+    """A box 2 m wide, open towards -y, with a red and a green wall and a block."""
+    return (
         Thing(floor()),
         Thing(quad("Ceiling", (-1, -1, 2), (0, 2, 0), (2, 0, 0))),
         Thing(quad("Back", (-1, 1, 0), (2, 0, 0), (0, 0, 2))),
         Thing(quad("Left", (-1, -1, 0), (0, 2, 0), (0, 0, 2)), RED),
         Thing(quad("Right", (1, -1, 0), (0, 0, 2), (0, 2, 0)), GREEN),
         Thing(box("Block", (-0.6, -0.1, 0), (0, 0.5, 0.9))))
+
+
+def cornell(*lights: Light, things: tuple[Thing, ...] = (), **more: Any) -> Scene:
+    """The room with `things` in it, seen from its open side; one small lamp by default."""
     camera = Camera("Camera", look((0, -4.2, 1), (0, 0, 1)), (64, 48), lens=40)
     lights = lights or (lamp("POINT", (0.2, -0.3, 1.7), emitted=5.0, radius=0.05),)
-    return scene(*things, **{"camera": camera, "lights": lights, **more})
+    return scene(*room(), *things, **{"camera": camera, "lights": lights, **more})
 
 
 def view(of: Scene, **more: Any) -> View:

@@ -12,9 +12,9 @@ import numpy as np
 
 _TERMS = (0.35875, -0.48829, 0.14128, -0.01168)
 
-# Steps of the R3 sequence along two of its axes [Roberts18]. Those of R2 choose points on lamps and cut-outs: were they
-# the same, each part of a pixel would see only part of a lamp.
-_STEPS = np.array([0.8191725133961645, 0.6710436067037893])
+# Irrational steps as in R2 [Roberts18], but others: R2 chooses points on lamps and cut-outs, and with the same steps
+# each part of a pixel would see only a part of each lamp. Golden ratio and root of 3: as even as Halton's sequence.
+_STEPS = np.array([0.6180339887498949, 0.7320508075688772])
 
 
 def blackman_harris(x: np.ndarray) -> np.ndarray:

@@ -55,9 +55,11 @@ class GBuffer:
 
 
 def rays(world_from_clip: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Matrices (3, 3) f8 that give a ray's origin on the near plane and its direction, any length, from (x, y, 1) in clip
-    space. Taken from the planes in doubles: where far is 1e8 times near, f4 has nothing left of the difference.
+    """Matrices (3, 3) f8 that turn (x, y, 1) in clip space into a ray's origin on the near plane and its direction.
+
+    The direction has any length. In doubles: where far is 1e8 times near, f4 has nothing left of the far plane.
     """
+
     def corners(z: float) -> np.ndarray:
         points = world_from_clip @ np.array([[0.0, 1, 0], [0, 0, 1], [z, z, z], [1, 1, 1]])
         middle, right, top = (points[:3] / points[3]).T

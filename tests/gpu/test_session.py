@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from svo_engine import render
 from svo_engine.errors import Cancelled, GpuError
-from svo_engine.passes import resolve
 from svo_engine.render import Session
 from tests import scenes
 
@@ -87,6 +87,7 @@ def test_frames_that_take_turns_give_what_each_gives_alone(session):
     last = [list(films)[-1] for films in running] + [third]
     for one, other in zip(alone, last, strict=True):
         assert np.array_equal(one.planes["Combined"], other.planes["Combined"])
+    list(session.films(rooms[2], views[2], settings))
     assert held(session) == first
 
 
@@ -147,7 +148,7 @@ def test_an_error_inside_a_frame_reaches_the_caller_and_the_next_frame_works(ses
         raise GpuError("lost")
 
     with monkeypatch.context() as patch:
-        patch.setattr(resolve.GpuFilm, "read", fail)
+        patch.setattr(render, "_read", fail)
         with pytest.raises(GpuError, match="lost"):
             picture(session, scene)
     assert picture(session, scene).shape == (48, 64, 4)

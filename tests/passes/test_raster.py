@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which pixels see what: the device's rasteriser against projection in numpy."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from svo_engine.scene.camera import make_view
+from svo_engine.scene.types import Camera, Image, Material, Texture
+from tests import scenes
+from tests.on_gpu import picture_of
+
+GLOW = Material("Glow", (0, 0, 0), emission=(1, 2, 3), specular_level=0)
+CAMERA = Camera("Camera", scenes.look((0.4, -5, 1.2), (0.1, 0, 0.2)), (64, 48), lens=50, shift=(0.05, -0.02))
+TILTED = ((-1.1, 0.2, -0.9), (2.1, 0.7, 0.1), (-0.2, 0.9, 2.0))  # corner and sides of a parallelogram
+
+
+def shown(session, *things, camera=CAMERA, view=None, samples=1, **more):
+    """The picture of glowing things on a transparent film."""
+    scene = scenes.scene(*things, camera=camera, film_transparent=True, **more)
+    return picture_of(session, scene, view, samples=samples)
+
+
+def projected(points, view) -> np.ndarray:
+    """Pixel coordinates (n, 2) of world points, row 0 at the bottom."""
+    p = np.concatenate([points, np.ones((len(points), 1))], 1) @ np.linalg.inv(view.world_from_view).T
+    clip = p @ view.clip_from_view.T
+    return (clip[:, :2] / clip[:, 3:] + 1) / 2 * view.size
+
+
+def inside(polygon: np.ndarray, size) -> tuple[np.ndarray, np.ndarray]:
+    """Which pixel centres lie inside a convex polygon (n, 2), and which too close to its edge to tell: (h, w) each."""
+    x, y = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
+    sides = []
+    for p, q in zip(polygon, np.roll(polygon, -1, 0), strict=True):
+        e = (q - p) / np.linalg.norm(q - p)
+        sides.append(e[0] * (y - p[1]) - e[1] * (x - p[0]))
+    distance = np.array(sides) * np.sign(np.median(sides))
+    return (distance > 0).all(0), np.abs(distance).min(0) < 5e-3  # positions are snapped to 1/256 pixel
+
+
+@pytest.mark.parametrize("camera", [
+    CAMERA,
+    replace(CAMERA, size=(40, 56), pixel_aspect=(1.0, 1.6)),
+    replace(CAMERA, is_orthographic=True, ortho_scale=4.0),
+], ids=["perspective", "tall", "orthographic"])
+def test_the_pixels_that_see_a_quad(session, camera):
+    corner, u, v = (np.array(x, "f8") for x in TILTED)
+    quad = np.array([corner, corner + u, corner + u + v, corner + v])
+    picture = shown(session, scenes.Thing(scenes.quad("Quad", *TILTED), GLOW), camera=camera)
+    view = make_view(camera)
+    sees, unsure = inside(projected(quad, view), view.size)
+    assert 0.05 < sees.mean() < 0.95
+    assert unsure.mean() < 0.02
+    assert np.array_equal((picture[..., 3] == 1)[~unsure], sees[~unsure])
+    assert np.allclose(picture[..., :3][sees & ~unsure], (1, 2, 3))
+    assert not picture[~sees & ~unsure].any()
+
+
+def test_the_nearer_surface_is_seen(session):
+    near = scenes.Thing(scenes.quad("Near", (-0.5, -1, -0.5), (1, 0, 0), (0, 0, 1)), GLOW)
+    far = scenes.Thing(scenes.quad("Far", (-1, 1, -1), (2, 0, 0), (0, 0, 2)), replace(GLOW, emission=(9, 9, 9)))
+    one, other = shown(session, near, far), shown(session, far, near)
+    assert np.array_equal(one, other)
+    reds = set(np.unique(one[..., 0]).tolist())
+    assert reds == {0.0, 1.0, 9.0}
+    assert one[24, 32, 0] == 1
+
+
+def test_surfaces_are_seen_from_both_sides(session):
+    front = scenes.Thing(scenes.quad("Quad", (-1, 0, -1), (2, 0, 0), (0, 0, 2)), GLOW)
+    back = scenes.Thing(scenes.quad("Quad", (-1, 0, -1), (0, 0, 2), (2, 0, 0)), GLOW)
+    assert np.array_equal(shown(session, front), shown(session, back))
+
+
+def test_a_floor_under_the_camera_is_cut_at_the_near_plane(session):
+    camera = Camera("Camera", scenes.look((0, 0, 0.5), (0, 10, 0.5)), (64, 48))
+    picture = shown(session, scenes.Thing(scenes.floor(1000.0), GLOW), camera=camera)
+    assert (picture[:22, :, 3] == 1).all()
+    assert (picture[26:, :, 3] == 0).all()
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.25, 0.5, 1.0])
+def test_alpha_is_a_share_of_the_samples(session, alpha):
+    """0 is never drawn and 1 always; between, 256 quasi-random numbers a pixel are within 0.03 of the share, also where
+    two triangles meet and each decides about a part of the samples.
+    """
+    sheet = scenes.Thing(scenes.quad("Sheet", (-9, 0, -9), (18, 0, 0), (0, 0, 18)), replace(GLOW, alpha=alpha))
+    picture = shown(session, sheet, camera=replace(CAMERA, size=(16, 12)), samples=1 if alpha in (0, 1) else 256)
+    assert np.allclose(picture[..., 3], alpha, atol=0 if alpha in (0, 1) else 0.03)
+    assert np.allclose(picture[..., :3], picture[..., 3:] * (1, 2, 3), atol=1e-5)
+
+
+def test_an_alpha_texture_cuts_out(session):
+    """The left half of the image is clear."""
+    image = Image("Half", np.array([[[1, 1, 1, 0], [1, 1, 1, 1]]], "f4"))
+    mesh = scenes.quad("Sheet", (-1, 0, -1), (2, 0, 0), (0, 0, 2), uvs=True)
+    sheet = scenes.Thing(mesh, replace(GLOW, alpha_texture=0))
+    texture = Texture(0, interpolation="Closest", channel=3)
+    camera = Camera("Camera", scenes.look((0, -5, 0)), (64, 48), is_orthographic=True, ortho_scale=2.0)
+    picture = shown(session, sheet, camera=camera, images=(image,), textures=(texture,))
+    assert not picture[:, :31].any()
+    assert (picture[:, 33:, 3] == 1).all()
+
+
+def test_a_border_shows_its_part_of_the_picture(session):
+    """The same pixels, but for those that an edge crosses: there the projection's rounding may decide otherwise."""
+    scene = scenes.cornell(scenes.lamp("POINT", (0.2, -0.3, 1.7), emitted=5.0))
+    whole = picture_of(session, scene)
+    part = picture_of(session, scene, scenes.view(scene, border=(0.25, 0.25, 0.75, 0.875)))
+    assert part.shape == (30, 32, 4)
+    same = np.isclose(part, whole[12:42, 16:48], rtol=1e-3, atol=1e-4).all(2)
+    assert same.mean() > 0.995
+
+
+def test_instances_of_one_mesh_are_seen_where_copies_of_it_would_be(session):
+    places = (scenes.moved(-1, 0, 0), scenes.moved(1, 0.5, 0), scenes.moved(0, 2, 1) @ np.diag([2.0, 1, 0.5, 1]))
+    ball = scenes.sphere("Ball", 0.6, 8)
+    shared = shown(session, scenes.Thing(ball, GLOW, places))
+    copies = shown(session, *(scenes.Thing(ball, GLOW, (place,)) for place in places))
+    assert np.array_equal(shared, copies)
+    assert 0.05 < shared[..., 3].mean() < 0.95
+
+
+def test_every_sample_moves_the_pixels_by_less_than_the_filter(session):
+    """A half plane: its edge becomes soft over about the filter's width, and stays sharp under a narrow filter."""
+    half = scenes.Thing(scenes.quad("Half", (0, 0, -5), (5, 0, 0), (0, 0, 10)), GLOW)
+    camera = Camera("Camera", scenes.look((0, -5, 0)), (32, 8), is_orthographic=True, ortho_scale=4.0)
+    scene = scenes.scene(half, camera=camera, film_transparent=True)
+    wide = picture_of(session, scene, samples=64, filter_width=4.0)[4, :, 3]
+    narrow = picture_of(session, scene, samples=64, filter_width=0.01)[4, :, 3]
+    assert set(narrow.tolist()) == {0.0, 1.0}
+    assert np.all(np.diff(wide) >= 0)
+    assert 2 <= ((wide > 0) & (wide < 1)).sum() <= 4
+    assert wide.sum() == pytest.approx(16, abs=0.1)
