@@ -31,32 +31,33 @@ class SVORenderEngine(bpy.types.RenderEngine):
     _viewport: Viewport | None = None
 
     def update(self, _data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
-        """Before each final render of a view layer; Blender keeps the scene still meanwhile."""
+        """Before each `render` of a view layer; Blender keeps the scene still meanwhile."""
         with self._telling_errors():
-            self._frame = None
             self._frame = extract_frame(self, depsgraph)
 
     def render(self, _depsgraph: bpy.types.Depsgraph) -> None:
         """The final render of a view layer, in a thread of Blender's if there is a window."""
-        if self._frame is None:  # `update` has told why
+        frame, self._frame = self._frame, None
+        if frame is None:  # `update` has told why
             return
         with self._telling_errors():
-            for warning in () if self.is_preview else self._frame.scene.warnings:
+            for warning in () if self.is_preview else frame.scene.warnings:
                 self.report({"WARNING"}, warning)
-            render_frame(self, self._frame)
+            render_frame(self, frame)
 
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Once for a new viewport, and after each change of the scene."""
         if self._viewport is None:
-            self._viewport = Viewport(self)
-        with self._telling_viewport_errors():
+            self._viewport = Viewport(self, _sentence)
+        with _noting_errors(self._viewport):
             self._viewport.update(context, depsgraph)
 
     def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """At each redraw."""
         if self._viewport is not None:
-            with self._telling_viewport_errors():
-                self.update_stats("", self._viewport.draw(self, context, depsgraph.scene))
+            with _noting_errors(self._viewport):
+                self._viewport.draw(self, context, depsgraph.scene)
+            self.update_stats(*self._viewport.status)
 
     @contextmanager
     def _telling_errors(self) -> Iterator[None]:
@@ -70,13 +71,14 @@ class SVORenderEngine(bpy.types.RenderEngine):
             self.report({"ERROR"}, sentence)
             self.error_set(sentence)
 
-    @contextmanager
-    def _telling_viewport_errors(self) -> Iterator[None]:
-        """A viewport has nothing but its line of text."""
-        try:
-            yield
-        except Exception as error:  # noqa: BLE001 - Blender would call the viewport again at once, and print without end
-            self.update_stats("Error", _sentence(error))
+
+@contextmanager
+def _noting_errors(viewport: Viewport) -> Iterator[None]:
+    """A viewport has nothing but its line of text to tell an error in."""
+    try:
+        yield
+    except Exception as error:  # noqa: BLE001 - Blender would print it, at every redraw
+        viewport.failure = _sentence(error)
 
 
 def _sentence(error: Exception) -> str:

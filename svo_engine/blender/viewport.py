@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import weakref
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -23,11 +24,15 @@ _open: list[Viewport] = []
 
 
 class Viewport:
-    """Belongs to one RenderEngine object, and closes itself when Blender has freed that."""
+    """Belongs to one RenderEngine object, and closes itself when Blender has freed that.
 
-    def __init__(self, engine: bpy.types.RenderEngine) -> None:
+    failure  the sentence on what went wrong in the last `update` or `draw`, or ""; the engine writes it
+    """
+
+    def __init__(self, engine: bpy.types.RenderEngine, describe: Callable[[Exception], str]) -> None:
+        self.failure = ""
         self._engine = weakref.ref(engine)
-        self._worker = Worker(session.current.films)
+        self._worker = Worker(session.current.films, describe)
         self._scene: Scene | None = None
         self._unlit_scene: Scene | None = None
         self._texture: tuple[Film, Any] | None = None
@@ -41,22 +46,29 @@ class Viewport:
         self._scene = extract(depsgraph, space=context.space_data)
         self._unlit_scene = replace(self._scene, lights=())
 
-    def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, scene: bpy.types.Scene) -> str:
-        """Draw the newest film and order a better one. How far it is, in words; raises what the worker ended with."""
+    def draw(self, engine: bpy.types.RenderEngine, context: bpy.types.Context, scene: bpy.types.Scene) -> None:
+        """Draw the newest film and order a better one."""
         is_lit = context.space_data.shading.use_scene_lights_render
         if (shown_scene := self._scene if is_lit else self._unlit_scene) is None:
-            return ""
+            return
+        self.failure = ""
         view, rect = view_of(context, scene)
         settings = settings_of(scene)
         settings = replace(settings, samples=settings.viewport_samples, time_limit=0.0)
         self._worker.show(Job(shown_scene, view, settings, rect))
-        if self._worker.error is not None:
-            raise self._worker.error
+        if self._worker.shown is not None:
+            job, film = self._worker.shown
+            present.draw_texture(engine, scene, self._texture_of(film), job.rect)
+
+    @property
+    def status(self) -> tuple[str, str]:
+        """How far the picture is, or what went wrong: the two texts of `RenderEngine.update_stats`."""
+        if failure := self.failure or self._worker.failure:
+            return "Error", failure
         if self._worker.shown is None:
-            return "Preparing"
+            return "", "Preparing"
         job, film = self._worker.shown
-        present.draw_texture(engine, scene, self._texture_of(film), job.rect)
-        return f"Sample {film.n_samples}/{settings.samples}"
+        return next(iter(job.scene.warnings), ""), f"Sample {film.n_samples}/{job.settings.samples}"
 
     def poll(self) -> bool:
         """Ask Blender for a redraw if there is something new; False once Blender has freed the engine."""

@@ -44,14 +44,15 @@ class Worker:
     """Renders the newest job: a draft first, which only `close` interrupts, so that a moving view is never starved;
     then the samples, until another job comes in.
 
-    shown  the newest Film with the job that it belongs to, or None
-    error  what the last job ended with, or None
+    describe  turns what a job ended with into a sentence; the exception itself would keep its whole stack alive
+    shown     the newest Film with the job that it belongs to, or None
+    failure   the sentence on the last job, or ""
     """
 
-    def __init__(self, films: FilmSource) -> None:
+    def __init__(self, films: FilmSource, describe: Callable[[Exception], str]) -> None:
         self.shown: tuple[Job, Film] | None = None
-        self.error: Exception | None = None
-        self._films = films
+        self.failure = ""
+        self._films, self._describe = films, describe
         self._job: Job | None = None
         self._changed = threading.Condition()
         self._is_closed = False
@@ -67,7 +68,7 @@ class Worker:
                 self._changed.notify()
 
     def take_news(self) -> bool:
-        """Whether there is a new film or error since the last call."""
+        """Whether there is a new film or failure since the last call."""
         has_news = self._news.is_set()
         self._news.clear()
         return has_news
@@ -89,8 +90,8 @@ class Worker:
                 self._render(job)
             except Cancelled:
                 continue
-            except Exception as error:  # noqa: BLE001 - for the main thread, which tells the user
-                self.error = error
+            except Exception as error:  # noqa: BLE001 - the main thread tells the user
+                self.failure = self._describe(error)
                 self._news.set()
 
     def _next(self, done: Job | None) -> Job | None:
@@ -104,5 +105,5 @@ class Worker:
         for part, should_stop in ((job.draft(), lambda: self._is_closed),
                                   (job, lambda: self._is_closed or self._job is not job)):
             for film in self._films(part.scene, part.view, part.settings, should_stop):
-                self.shown, self.error = (job, film), None
+                self.shown, self.failure = (job, film), ""
                 self._news.set()

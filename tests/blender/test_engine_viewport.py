@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from mathutils import Matrix, Vector
 
+from svo_engine.blender import present, session, viewport
 from svo_engine.blender.viewport_view import view_of
 from svo_engine.blender.worker import Job, Worker
-from svo_engine.errors import Cancelled, GpuError
+from svo_engine.errors import Cancelled, GpuError, SceneError
 from svo_engine.film import Film
 from svo_engine.scene.types import Scene, View
 from svo_engine.settings import RenderSettings
@@ -44,6 +45,9 @@ class Gated:
                 raise self.error
             yield Film({"Combined": np.zeros((*view.size[::-1], 4), "f4")}, n)
 
+    def close(self):
+        """Nothing is held."""
+
     def step(self, n=1):
         self.gate.release(n)
 
@@ -69,7 +73,7 @@ def gated():
 
 @pytest.fixture
 def worker(gated):
-    worker = Worker(gated.films)
+    worker = Worker(gated.films, str)
     yield worker
     worker.close()
     worker.join(SECONDS)
@@ -124,7 +128,7 @@ def test_draft_is_not_interrupted_so_that_a_moving_view_shows_something(worker, 
 
 
 def test_close_interrupts_the_draft(gated):
-    worker = Worker(gated.films)
+    worker = Worker(gated.films, str)
     worker.show(job())
     gated.wait_for_call()
     worker.close()
@@ -132,17 +136,120 @@ def test_close_interrupts_the_draft(gated):
     assert "SVO viewport" not in {thread.name for thread in threading.enumerate()}
 
 
-def test_error_is_handed_over_and_the_next_job_clears_it(worker, gated):
+def test_error_becomes_a_sentence_and_the_next_job_clears_it(worker, gated):
     gated.error = GpuError("The device was lost")
     worker.show(job())
     gated.step()
-    assert until(lambda: worker.error is gated.error)
+    assert until(lambda: worker.failure == "The device was lost")
     assert worker.take_news()
     gated.error = None
     worker.show(job(width=16))
     gated.step(4)
     assert until(lambda: worker.shown and worker.shown[1].size == (16, 4))
-    assert worker.error is None
+    assert not worker.failure
+
+
+# The viewport on the main thread
+
+
+class Engine:
+    """What a viewport uses of its RenderEngine."""
+
+    n_redraws = 0
+
+    def tag_redraw(self):
+        self.n_redraws += 1
+
+
+@pytest.fixture
+def drawn(monkeypatch, gated):
+    """The films that viewports have drawn, in place of a window."""
+    drawn = []
+    monkeypatch.setattr(session, "current", gated)
+    monkeypatch.setattr(present, "make_texture", lambda film: film)
+    monkeypatch.setattr(present, "draw_texture", lambda _engine, _scene, film, _rect: drawn.append(film))
+    yield drawn
+    viewport.close_all()
+
+
+def region_of(scene, is_lit=True):
+    context = looking_through(scene, "PERSP")
+    context.space_data = SimpleNamespace(**vars(context.space_data),
+                                         shading=SimpleNamespace(use_scene_lights_render=is_lit))
+    return context
+
+
+@pytest.fixture
+def shown(drawn, scene, extension, monkeypatch):
+    """A viewport of the scene, which has one lamp, and the engine that it belongs to."""
+    lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
+    scene.collection.objects.link(lamp)
+    scene.svo.viewport_samples = 2
+    real = viewport.extract  # a 3D viewport can hide objects, which only a real one can tell
+    monkeypatch.setattr(viewport, "extract", lambda depsgraph, space: real(depsgraph))
+    engine = Engine()
+    shown = viewport.Viewport(engine, str)
+    shown.update(region_of(scene), bpy.context.evaluated_depsgraph_get())
+    return shown, engine
+
+
+def test_viewport_asks_for_a_redraw_for_each_film(shown, drawn, gated, scene):
+    shown, engine = shown
+    shown.draw(engine, region_of(scene), scene)
+    assert (drawn, shown.status) == ([], ("", "Preparing"))
+    gated.step()
+    assert until(lambda: shown.poll() and engine.n_redraws == 1)
+    shown.draw(engine, region_of(scene), scene)
+    assert drawn[-1].size == (WIDTH // 2, HEIGHT // 2)
+    gated.step(2)
+    assert until(lambda: shown.poll() and shown.status == ("", "Sample 2/2"))
+    shown.draw(engine, region_of(scene), scene)
+    assert drawn[-1].size == (WIDTH, HEIGHT)
+
+
+@pytest.mark.parametrize("is_lit", [True, False])
+def test_scene_lights_can_be_switched_off(shown, gated, scene, is_lit):
+    shown, engine = shown
+    shown.draw(engine, region_of(scene, is_lit), scene)
+    assert len(gated.wait_for_call()[0].lights) == is_lit
+
+
+def test_status_tells_a_failure_until_it_is_mended(shown, gated, scene):
+    shown, engine = shown
+    gated.error = GpuError("The device was lost")
+    shown.draw(engine, region_of(scene), scene)
+    gated.step()
+    assert until(lambda: shown.status == ("Error", "The device was lost"))
+    gated.error = None
+    shown.update(region_of(scene), bpy.context.evaluated_depsgraph_get())
+    shown.draw(engine, region_of(scene), scene)
+    gated.step(3)
+    assert until(lambda: shown.status == ("", "Sample 2/2"))
+
+
+def test_scene_that_cannot_be_read_is_not_drawn(shown, drawn, scene, monkeypatch):
+    shown, engine = shown
+
+    def extract(*_args, **_options):
+        raise SceneError("Mesh 'Cube' is broken")
+
+    monkeypatch.setattr(viewport, "extract", extract)
+    with pytest.raises(SceneError):
+        shown.update(region_of(scene), bpy.context.evaluated_depsgraph_get())
+    shown.failure = "Mesh 'Cube' is broken"
+    shown.draw(engine, region_of(scene), scene)
+    assert (drawn, shown.status) == ([], ("Error", "Mesh 'Cube' is broken"))
+
+
+@pytest.mark.usefixtures("drawn")
+def test_viewport_ends_with_its_engine():
+    engine = Engine()
+    shown = viewport.Viewport(engine, str)
+    assert viewport._poll() is not None
+    del engine
+    assert viewport._poll() is None
+    shown.join()
+    assert "SVO viewport" not in {thread.name for thread in threading.enumerate()}
 
 
 # The viewport's view
@@ -160,7 +267,7 @@ def scene(empty):
     return empty
 
 
-def viewport(scene, perspective, border=None):
+def looking_through(scene, perspective, border=None):
     """A context like that of a 3D viewport which looks through the scene's camera with a view twice as wide."""
     camera = scene.camera
     window = camera.calc_matrix_camera(bpy.context.evaluated_depsgraph_get(), x=WIDTH, y=HEIGHT)
@@ -191,14 +298,14 @@ def expected_pixel(context):
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
 def test_whole_region(scene, kind):
     scene.camera.data.type = kind
-    context = viewport(scene, kind)
+    context = looking_through(scene, kind)
     view, rect = view_of(context, scene)
     assert (view.size, rect) == ((WIDTH, HEIGHT), (0, 0, WIDTH, HEIGHT))
     np.testing.assert_allclose(pixel_of(view, rect, POINT), expected_pixel(context), atol=1e-3)
 
 
 def test_viewports_own_border(scene):
-    context = viewport(scene, "PERSP", (0.25, 0.1, 0.75, 0.6))
+    context = looking_through(scene, "PERSP", (0.25, 0.1, 0.75, 0.6))
     view, rect = view_of(context, scene)
     assert (view.size, rect) == ((100, 50), (50, 10, 100, 50))
     np.testing.assert_allclose(pixel_of(view, rect, POINT), expected_pixel(context), atol=1e-3)
@@ -210,7 +317,7 @@ def test_cameras_border_lies_in_the_cameras_frame(scene, kind):
     render = scene.render
     render.use_border, render.border_min_x, render.border_max_x = True, 0.0, 0.5
     render.border_min_y, render.border_max_y = 0.5, 1.0
-    context = viewport(scene, "CAMERA")
+    context = looking_through(scene, "CAMERA")
     view, rect = view_of(context, scene)
     # A square picture, whose sensor is fitted to its width, is as wide as the region: 200 x 200 about (100, 50)
     assert rect == (0, 50, 100, 50)
@@ -219,6 +326,6 @@ def test_cameras_border_lies_in_the_cameras_frame(scene, kind):
 
 @pytest.mark.parametrize("border", [(0.5, 0.5, 0.5, 0.5), (1, 1, 1, 1), (0.9999, 0, 1, 0.0001), (-3, -3, -2, -2)])
 def test_border_of_no_size_or_outside_gives_one_pixel(scene, border):
-    view, (x, y, width, height) = view_of(viewport(scene, "PERSP", border), scene)
+    view, (x, y, width, height) = view_of(looking_through(scene, "PERSP", border), scene)
     assert (width, height) == view.size == (1, 1)
     assert 0 <= x < WIDTH and 0 <= y < HEIGHT

@@ -113,6 +113,30 @@ def switching() -> drive.Script:
     drive.window().scene.svo.view = "combined"
 
 
+def lifetimes() -> drive.Script:
+    """The viewport outlives its file and the extension."""
+    from svo_engine import blender
+
+    path = drive.PICTURES / "saved.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    yield lambda: workers() == 0
+    show("RENDERED")  # Blender opens no file like that
+    yield from settle(2.0)
+    assert workers() == 1
+    drive.shot("reopened")
+
+    blender.unregister()
+    yield 1.0
+    assert workers() == 0
+    blender.register("svo_engine")
+    show("SOLID")
+    yield 1.0
+    show("RENDERED")
+    yield from settle()
+    drive.shot("registered-again")
+
+
 def final() -> drive.Script:
     from svo_engine.blender import session
 
@@ -145,6 +169,7 @@ def script() -> drive.Script:
     yield 1.0
     yield from edits()
     yield from switching()
+    yield from lifetimes()
     yield from final()
     # Blender quits from here with a RENDERED viewport open
 
