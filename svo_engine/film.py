@@ -39,8 +39,8 @@ class Film:
             raise SvoError(f"Cannot write '{path}': its ending must be one of {', '.join(writers)}")
         try:
             writers[path.suffix](self, path)
-        except OSError as error:
-            raise SvoError(f"Cannot write '{path}': {error.strerror or error}") from error
+        except (OSError, RuntimeError) as error:  # the latter is OpenEXR's way
+            raise SvoError(f"Cannot write '{path}': {getattr(error, 'strerror', None) or error}") from error
 
 
 def load(path: str | Path) -> Film:
