@@ -15,6 +15,7 @@ struct Surface {
     vec3 position;
     vec3 normal_geometric;  // unit, as the mesh winds its triangle; turned round with an instance that mirrors
     vec3 normal;            // unit, shading normal
+    vec3 lift;              // from the triangle to the curved surface that its corner normals suggest
     vec3 tangent;           // along u, not normalised; zero without texture coordinates
     vec3 bitangent;         // along v, not normalised
     vec2 uv;
@@ -62,7 +63,17 @@ vec2 uv_at(uint triangle, vec2 bary)
     return a + bary.x * (b - a) + bary.y * (c - a);
 }
 
-Surface surface_at(uint instance, uint triangle, vec2 bary, bool has_uvs)
+// How far p must be lifted to lie on the tangent planes of the corners, which face `side`, mean over them [Hanika21].
+vec3 lift(vec3 p, mat3 corners, mat3 normals, vec3 weights, float side)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 3; i++)
+        sum -= weights[i] * min(side * dot(p - corners[i], normals[i]), 0.0) * side * normals[i];
+    return sum;
+}
+
+// A point of a triangle as seen from the direction wo: both normals on its side.
+Surface surface_at(uint instance, uint triangle, vec2 bary, vec3 wo, bool has_uvs)
 {
     uvec4 corners = triangles[triangle];
     vec3 a = vertex_ws(instance, corners.x), b = vertex_ws(instance, corners.y), c = vertex_ws(instance, corners.z);
@@ -70,10 +81,16 @@ Surface surface_at(uint instance, uint triangle, vec2 bary, bool has_uvs)
     Surface s;
     s.position = a + bary.x * ab + bary.y * ac;
     s.normal_geometric = handedness(instances[instance]) * normalize(cross(ab, ac));
-    vec3 na = unpack_unit(corner_normals[3u * triangle]), nb = unpack_unit(corner_normals[3u * triangle + 1u]),
-         nc = unpack_unit(corner_normals[3u * triangle + 2u]);
-    vec3 n = normal_to_world(instances[instance], na + bary.x * (nb - na) + bary.y * (nc - na));
+    vec3 weights = vec3(1.0 - bary.x - bary.y, bary);
+    mat3 normals;
+    for (uint i = 0u; i < 3u; i++)
+        normals[i] = normalize(normal_to_world(instances[instance], unpack_unit(corner_normals[3u * triangle + i])));
+    vec3 n = normals * weights;
     s.normal = dot(n, n) > 1e-20 ? normalize(n) : s.normal_geometric;
+    float side = dot(s.normal_geometric, wo) < 0.0 ? -1.0 : 1.0;
+    s.lift = lift(s.position, mat3(a, b, c), normals, weights, side);
+    s.normal_geometric *= side;
+    s.normal *= side;
     s.tangent = s.bitangent = vec3(0.0);
     s.uv = vec2(0.0);
     s.material = material_of(instance, triangle);

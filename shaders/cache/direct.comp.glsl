@@ -21,12 +21,15 @@ void main()
     uint side = u_first + gl_GlobalInvocationID.x;
     if (side >= u_end)
         return;
-    Surfel s = surfels[side / 2u];
-    vec3 n = unpack_unit(s.normal) * (side % 2u == 0u ? 1.0 : -1.0);
-    vec3 p = s.position + n * (START / u_voxels_per_metre), E = vec3(0.0);
+    Surfel surfel = surfels[side / 2u];
+    Surface s;
+    s.normal = s.normal_geometric = unpack_unit(surfel.normal) * (side % 2u == 0u ? 1.0 : -1.0);
+    s.position = surfel.position + s.normal * (START / u_voxels_per_metre);
+    s.lift = vec3(0.0);
+    vec3 E = vec3(0.0);
     for (int k = 0; k < N_POINTS; k++)
-        E += lamps_irradiance(p, n, n, uint(k), hash(side)) / float(N_POINTS);
+        E += lamps_irradiance(s, uint(k), hash(side)) / float(N_POINTS);
     cache[cache_entry(LAMPS, side)] = vec4(E, 0.0);
     cache[cache_entry(INDIRECT, side)] = vec4(0.0);
-    cache[cache_entry(RADIANCE, side)] = vec4(s.emission + s.albedo / PI * E, 0.0);
+    cache[cache_entry(RADIANCE, side)] = vec4(surfel.emission + surfel.albedo / PI * E, 0.0);
 }

@@ -39,15 +39,9 @@ struct Met {
 Met met_at(Hit hit, vec3 d)
 {
     Met met;
-    Surface s = surface_at(hit.instance, hit.triangle, hit.bary, HAS_TEXTURES);
-    met.side = cache_side(s.position, s.normal_geometric, d);
-    s.normal = mapped_normal(s.material, s.uv, s.normal, s.tangent, s.bitangent, HAS_TEXTURES);
-    if (dot(s.normal_geometric, d) > 0.0) {
-        s.normal_geometric = -s.normal_geometric;
-        s.normal = -s.normal;
-    }
-    met.surface = s;
-    met.shading = shading_at(s.material, s.uv, HAS_TEXTURES);
+    met.surface = seen_surface(hit.instance, hit.triangle, hit.bary, -d, HAS_TEXTURES);
+    met.side = cache_side(met.surface.position, met.surface.normal_geometric, d);
+    met.shading = shading_at(met.surface.material, met.surface.uv, HAS_TEXTURES);
     return met;
 }
 
@@ -55,7 +49,7 @@ Met met_at(Hit hit, vec3 d)
 // as its colour: what it mirrors is taken as its share of what arrives from everywhere.
 vec3 leaving(Met met, uint seed)
 {
-    vec3 E = lamps_irradiance(met.surface.position, met.surface.normal, met.surface.normal_geometric, u_sample, seed);
+    vec3 E = lamps_irradiance(met.surface, u_sample, seed);
     if (met.side != NOTHING)
         E += cache[cache_entry(INDIRECT, met.side)].rgb;
     vec3 rho = met.shading.base_color * (1.0 - materials[met.surface.material].transmission);
@@ -92,7 +86,7 @@ vec3 specular_lamps(Surface s, vec3 wo, vec3 f0, float alpha, uint seed)
     vec3 L = vec3(0.0);
     float NoV = dot(s.normal, wo);
     for (int i = 0; i < N_LIGHTS; i++) {
-        LightSample light = visible_light(i, s.position, s.normal_geometric, r2_point(u_sample, seed + uint(i)), seed);
+        LightSample light = visible_light(i, s, r2_point(u_sample, seed + uint(i)), seed);
         float NoL = dot(s.normal, light.wi);
         if (NoL > 0.0 && light.E_perp != vec3(0.0)) {
             vec3 h = normalize(light.wi + wo);
@@ -139,7 +133,7 @@ void main()
     if (seen.hit) {
         Surface s = seen.surface;
         uint seed = hash(uint(pixel.x) + hash(uint(pixel.y) + u_seed));
-        E_direct = lamps_irradiance(s.position, s.normal, s.normal_geometric, u_sample, seed);
+        E_direct = lamps_irradiance(s, u_sample, seed);
         if (HAS_INDIRECT)
             E_indirect = diffuse_light(s, seed);
         if (HAS_SPECULAR)

@@ -33,9 +33,11 @@ def _inverse_cdf() -> tuple[np.ndarray, np.ndarray]:
 def jitter(sample: int, seed: int, width: float) -> tuple[float, float]:
     """Offset (x, y) in pixels from the pixel's centre of sample number `sample`.
 
+    width  as in Cycles: the window reaches that far to either side, so that it is twice as wide in all
+
     The first sample of seed 0 lies in the centre.
     """
     start = np.random.default_rng(seed).random(2) if seed else np.array([0.5, 0.5])
     u = (start + sample * _STEPS) % 1.0
-    x, y = np.interp(u, *_inverse_cdf()) * width
+    x, y = np.interp(u, *_inverse_cdf()) * (2 * width)
     return float(x), float(y)
