@@ -50,12 +50,14 @@ class _GroupPanel(_RenderPanel):
 
 
 class SVO_PT_sampling(_RenderPanel, bpy.types.Panel):
-    """The method; how many samples stands in the parts below."""
+    """What both parts below have in common."""
 
     bl_label = "Sampling"
 
     def draw(self, context: bpy.types.Context) -> None:
-        self.column().prop(context.scene.svo, "method")
+        column = self.column()
+        column.prop(context.scene.svo, "method")
+        column.prop(context.scene.svo, "denoise")
 
 
 class SVO_PT_sampling_viewport(_RenderPanel, bpy.types.Panel):
@@ -91,10 +93,25 @@ class SVO_PT_sampling_advanced(_RenderPanel, bpy.types.Panel):
         self.column().prop(context.scene.svo, "seed")
 
 
+class SVO_PT_rays(_GroupPanel, bpy.types.Panel):
+    """The rays that gather light, and the octree that holds it."""
+
+    bl_label = group = "Rays"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and context.scene.svo.method == "rays"
+
+
 class SVO_PT_voxel_grid(_GroupPanel, bpy.types.Panel):
-    """How fine the voxels are."""
+    """How fine the voxels are: those of the cones, and those that can be looked at."""
 
     bl_label = group = "Voxel Grid"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        svo = context.scene.svo
+        return super().poll(context) and (svo.method == "cones" or svo.view != "combined")
 
 
 class SVO_PT_cones(_GroupPanel, bpy.types.Panel):
@@ -226,10 +243,10 @@ class SVO_PT_viewport_lighting(bpy.types.Panel):
         self.layout.prop(context.space_data.shading, "use_scene_lights_render")
 
 
-_CLASSES = (SVO_PT_sampling, SVO_PT_sampling_viewport, SVO_PT_sampling_render, SVO_PT_sampling_advanced,
+_CLASSES = (SVO_PT_sampling, SVO_PT_sampling_viewport, SVO_PT_sampling_render, SVO_PT_sampling_advanced, SVO_PT_rays,
             SVO_PT_voxel_grid, SVO_PT_cones, SVO_PT_light_injection, SVO_PT_simplify, SVO_PT_simplify_viewport,
-            SVO_PT_simplify_render, SVO_PT_film, SVO_PT_debug, SVO_PT_comparison,
-            SVO_PT_light_beam, SVO_PT_light_shadow, SVO_PT_viewport_lighting)
+            SVO_PT_simplify_render, SVO_PT_film, SVO_PT_debug, SVO_PT_comparison, SVO_PT_light_beam, SVO_PT_light_shadow,
+            SVO_PT_viewport_lighting)
 
 
 def register() -> None:

@@ -91,8 +91,23 @@ def test_limits_are_reached_in_spite_of_32_bits(scene, limit):
 
 
 def test_each_setting_stands_in_one_panel(scene):
-    shown = [name for panel in panels._CLASSES for name in shown_by(panel, context_of(scene)) if name in specs()]
-    assert sorted(shown) == sorted(specs())
+    shown = []
+    for method, _, _ in specs()["method"].choices:
+        scene.svo.method = method
+        names = [name for panel in panels._CLASSES for name in shown_by(panel, context_of(scene)) if name in specs()]
+        assert len(names) == len(set(names))
+        shown += names
+    assert set(shown) == set(specs())
+
+
+def test_only_the_settings_of_the_method_are_shown(scene):
+    scene.svo.method = "rays"
+    assert shown_by(panels.SVO_PT_cones, context_of(scene)) == []
+    assert shown_by(panels.SVO_PT_voxel_grid, context_of(scene)) == []
+    scene.svo.view = "voxel_albedo"
+    assert shown_by(panels.SVO_PT_voxel_grid, context_of(scene)) == ["resolution"]
+    scene.svo.method = "cones"
+    assert shown_by(panels.SVO_PT_rays, context_of(scene)) == []
 
 
 def test_film_panel_has_blenders_own_transparency(scene):
