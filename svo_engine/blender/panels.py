@@ -245,8 +245,8 @@ class SVO_PT_viewport_lighting(bpy.types.Panel):
 
 _CLASSES = (SVO_PT_sampling, SVO_PT_sampling_viewport, SVO_PT_sampling_render, SVO_PT_sampling_advanced, SVO_PT_rays,
             SVO_PT_voxel_grid, SVO_PT_cones, SVO_PT_light_injection, SVO_PT_simplify, SVO_PT_simplify_viewport,
-            SVO_PT_simplify_render, SVO_PT_film, SVO_PT_debug, SVO_PT_comparison, SVO_PT_light_beam, SVO_PT_light_shadow,
-            SVO_PT_viewport_lighting)
+            SVO_PT_simplify_render, SVO_PT_film, SVO_PT_debug, SVO_PT_comparison, SVO_PT_light_beam,
+            SVO_PT_light_shadow, SVO_PT_viewport_lighting)
 
 
 def register() -> None:
