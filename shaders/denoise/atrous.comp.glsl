@@ -10,7 +10,6 @@
 #include "lib/layouts.glsl"
 #include "lib/math.glsl"
 
-const float SIGMAS = 4.0;          // k: differences of less are noise
 const float NORMAL_POWER = 64.0;
 const float PLANE_PIXELS = 1.0;    // z: distance from the surface's plane, in pixels of that depth
 
@@ -23,6 +22,7 @@ uniform sampler2DArray u_film;
 uniform uint u_first;
 uniform uint u_end;
 uniform int u_step;                // pixels between taps
+uniform float u_sigmas;            // k: differences of so many standard deviations are noise
 
 float luminance(vec3 c)
 {
@@ -72,7 +72,7 @@ void main()
     camera_ray(vec2(pixel) + vec2(1.5, 0.5), o1, d1);
     camera_ray(vec2(pixel) + 0.5, o, d);
     float pixel_size = distance(o + d * depth, o1 + d1 * depth) * PLANE_PIXELS * float(u_step) + 1e-9;
-    float sigma = SIGMAS * sqrt(steady_variance(pixel)) + 1e-9, Y = luminance(own.rgb);
+    float sigma = u_sigmas * sqrt(steady_variance(pixel)) + 1e-9, Y = luminance(own.rgb);
     vec4 sum = vec4(0.0);
     float weight = 0.0;
     for (int y = -2; y <= 2; y++)

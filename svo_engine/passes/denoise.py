@@ -19,12 +19,12 @@ from .resolve import GpuFilm
 PREPARE = Pass(("denoise/prepare.comp.glsl",), textures=("u_film",), images=("u_light",),
                uniforms=("u_size", "u_n_samples"))
 ATROUS = Pass(("denoise/atrous.comp.glsl",), textures=("u_film", "u_light_in"), images=("u_light",),
-              uniforms=("u_ray_origin", "u_ray_direction", "u_size", "u_step"))
+              uniforms=("u_ray_origin", "u_ray_direction", "u_size", "u_step", "u_sigmas"))
 COMPOSE = Pass(("denoise/compose.comp.glsl",), textures=("u_film", "u_direct", "u_indirect"), images=("u_picture",),
                uniforms=("u_size", "u_n_samples"))
 
 STEPS = (1, 2, 4, 8, 16)  # pixels between the taps of each pass
-SIGMAS = {"DIFFUSE_DIRECT": 8.0, "DIFFUSE_INDIRECT": 8.0}  # differences of so many standard deviations are noise
+SIGMAS = 8.0  # with one sample, differences of so many standard deviations are noise; with n, 1 / sqrt(n) of that
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +72,7 @@ def _filtered(device: Device, film: GpuFilm, gbuffer: GBuffer, plane: str, light
     device.dispatch(PREPARE, n, {"PLANE": layouts.CONSTANTS[f"PLANE_{plane}"]}, u_film=film.sums, u_light=light,
                     u_size=film.size, u_n_samples=float(film.n_samples))
     for step in STEPS:
-        device.dispatch(ATROUS, n, {"SIGMAS": SIGMAS[plane]}, u_film=film.sums, u_light_in=light, u_light=spare, **gbuffer.camera(), u_step=step)
+        device.dispatch(ATROUS, n, u_film=film.sums, u_light_in=light, u_light=spare, **gbuffer.camera(), u_step=step,
+                        u_sigmas=SIGMAS / film.n_samples**0.5)
         light, spare = spare, light
     return light
