@@ -24,14 +24,17 @@ def test_the_first_sample_lies_in_the_centre():
 @pytest.mark.parametrize("seed", [0, 3])
 @pytest.mark.parametrize("width", [1.0, 1.5])
 def test_samples_are_distributed_as_the_window(seed, width):
-    """Shares of 4096 samples in ten parts of the filter, within 0.004: what the sequence leaves open."""
+    """Shares of 4096 samples in ten parts of the filter, within 0.004: what the sequence leaves open.
+
+    As in Cycles the window reaches `width` to either side.
+    """
     samples = np.array([jitter(i, seed, width) for i in range(4096)])
     edges = np.linspace(-0.5, 0.5, 11)
     fine = np.linspace(-0.5, 0.5, 10_001)
     middle = (fine[1:] + fine[:-1]) / 2
     mass = np.histogram(middle, edges, weights=blackman_harris(middle))[0]
     for axis in range(2):
-        found = np.histogram(samples[:, axis] / width, edges)[0] / len(samples)
+        found = np.histogram(samples[:, axis] / (2 * width), edges)[0] / len(samples)
         assert np.allclose(found, mass / mass.sum(), atol=4e-3)
     assert abs(np.corrcoef(samples.T)[0, 1]) < 0.02
 
