@@ -22,7 +22,7 @@ def make_view(camera: Camera, size: tuple[int, int] | None = None, border: Borde
         left, right = _pixel(border[0], width), _pixel(border[2], width)
         bottom, top = _pixel(border[1], height), _pixel(border[3], height)
         right, top = max(right, left + 1), max(top, bottom + 1)
-        clip = _crop(left / width, bottom / height, right / width, top / height) @ clip
+        clip = crop(left / width, bottom / height, right / width, top / height) @ clip
         width, height = right - left, top - bottom
     return View(camera.world_from_camera, clip, (width, height))
 
@@ -60,7 +60,7 @@ def _pixel(fraction: float, side: int) -> int:
     return int(np.float32(fraction) * np.float32(side))
 
 
-def _crop(left: float, bottom: float, right: float, top: float) -> np.ndarray:
+def crop(left: float, bottom: float, right: float, top: float) -> np.ndarray:
     """Clip-space matrix (4, 4) that stretches the part of the picture, in fractions, over the whole of it."""
     m = np.eye(4)
     m[0, 0], m[0, 3] = 1 / (right - left), (1 - left - right) / (right - left)

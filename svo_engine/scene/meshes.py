@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes from raw arrays: bad triangles are dropped, counted and reported by name, so that no pass ever meets one."""
+"""Meshes from raw arrays: bad triangles are dropped and reported by name, so that no pass ever meets one."""
 
 from __future__ import annotations
 
@@ -24,9 +24,10 @@ def make_mesh(name: str, positions: np.ndarray, triangles: np.ndarray, corner_no
     """A Mesh and the warnings about what was dropped from it.
 
     positions  (n_vertices, 3), triangles (n_triangles, 3); optional arrays as in `Mesh`, default: the triangle's own
-    normal, zero coordinates, slot 0. Triangles with a corner that is not finite or with no area are dropped, and
-    vertices that no triangle is left to use; normals and coordinates that are not finite are replaced by the
-    triangle's normal and by zero. SceneError if a triangle names a vertex that is not there.
+    normal, zero coordinates, slot 0. Triangles with a corner that is not finite are dropped; so are, without a word,
+    those without area, for they cover nothing and Blender's own texts and spheres have them, and vertices that no
+    triangle is left to use. Normals and coordinates that are not finite are replaced by the triangle's normal and by
+    zero. SceneError if a triangle names a vertex that is not there.
     """
     positions = np.ascontiguousarray(positions, "f4").reshape(-1, 3)
     triangles = np.ascontiguousarray(triangles, "u4").reshape(-1, 3)
@@ -34,8 +35,7 @@ def make_mesh(name: str, positions: np.ndarray, triangles: np.ndarray, corner_no
         raise SceneError(f"Mesh '{name}': a triangle names vertex {triangles.max()} of {len(positions)}")
     finite = (np.abs(positions) < LARGEST_COORDINATE).all(1)[triangles].all(1)
     cross = _cross(positions, triangles, finite)
-    has_area = (cross != 0).any(1)
-    keep = finite & has_area
+    keep = (cross != 0).any(1)
 
     normals, uvs, slots = (None if a is None else _kept(np.asarray(a, dtype).reshape(-1, *shape), keep)
                            for a, dtype, shape in ((corner_normals, "f4", (3, 3)), (corner_uvs, "f4", (3, 2)),
@@ -44,7 +44,6 @@ def make_mesh(name: str, positions: np.ndarray, triangles: np.ndarray, corner_no
     normals, uvs, n_bad_uvs = _unit_normals(normals, _kept(cross, keep)), *_finite_uvs(uvs, n)
     slots = np.zeros(n, "u4") if slots is None else slots.astype("u4")
     counts = ((int((~finite).sum()), "triangles dropped: a corner is not a finite number"),
-              (int((finite & ~has_area).sum()), "triangles dropped: they have no area"),
               (n_bad_uvs, "triangles have UV coordinates that are not finite; zero is used"))
     warnings = tuple(f"Mesh '{name}': {count} {what}" for count, what in counts if count)
     return Mesh(name, *_used(positions, _kept(triangles, keep)), normals, uvs, slots), warnings

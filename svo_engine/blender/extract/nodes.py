@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any
-
-import bpy
 
 from ...scene.types import Color
 
@@ -36,9 +35,9 @@ class Port:
 
 def tree_of(owner: Any) -> Any:
     """The node tree that a material, world or lamp is drawn with; None if it does not use nodes."""
-    if isinstance(owner, (bpy.types.Material, bpy.types.World)) and bpy.app.version >= (5, 0):
-        return owner.node_tree  # `use_nodes` is always True there, and reading it warns
-    return owner.node_tree if owner.use_nodes else None
+    with warnings.catch_warnings():  # Blender 5 still has the switch, but warns of it: nodes are always used there
+        warnings.simplefilter("ignore", DeprecationWarning)
+        return owner.node_tree if getattr(owner, "use_nodes", True) else None
 
 
 def fed_output(tree: Any, identifier: str) -> Port | None:

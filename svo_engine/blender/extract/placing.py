@@ -81,6 +81,8 @@ class Placing:
                 layer = uv_map_of(owner.data)
                 self.meshes.append(made)
                 self._uv_maps.append(layer.name if layer else "")
+            if any(p.settings.type == "HAIR" and p.settings.render_type == "PATH" for p in owner.particle_systems):
+                self._warn(f"Object '{owner.name}' has hair strands, which are not supported; they are left out")
         return self._mesh_index[pointer]
 
     def _slot_materials(self, owner: Any) -> list[Any]:
@@ -91,8 +93,7 @@ class Placing:
         slots = owner.material_slots
         materials += [None] * (len(slots) - len(materials))
         for i, slot in enumerate(slots):
-            if slot.link == "OBJECT" and slot.material is not None:
-                materials[i] = slot.material
+            materials[i] = slot.material or materials[i]
         return materials or [None]
 
     def _check_uv_map(self, material: int, mesh: int) -> None:
