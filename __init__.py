@@ -6,7 +6,7 @@ def register() -> None:
     """Blender enables the extension."""
     from .svo_engine import blender
 
-    blender.register(__package__)
+    blender.register()
 
 
 def unregister() -> None:

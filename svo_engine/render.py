@@ -33,7 +33,7 @@ Gather = Callable[[GBuffer, Incident, int], None]
 def render(scene: Scene, view: View, settings: RenderSettings, device: Device, kept: Kept) -> Iterator[GpuFilm]:
     """Yield the film after each sample; all in the device's own thread."""
     started = time.monotonic()
-    device.profiler.reset()
+    sums = device.profiler.reset()
     film = make_film(device, view.size)
     with film.scope, kept.frame(device) as stage:
         with device.profiler.host("upload"):
@@ -57,6 +57,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
             is_late = 0 < settings.time_limit < time.monotonic() - started
             film.is_last = is_late or film.n_samples == settings.samples
             yield film
+            device.profiler.sums = sums  # other frames may have had a turn
             if is_late:
                 return
 
@@ -65,6 +66,7 @@ def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settin
     """Light in filtered voxels, gathered by cones: the thesis's way."""
     voxels = stage("voxelize", voxelize, gpu_scene, int(settings.resolution))
     lit = stage("light", light, gpu_scene, voxels, injection_of(settings, gpu_scene, view))
+    device.profiler.counts["voxels"] = voxels.n_voxels
     return lambda gbuffer, incident, sample: gather_cones(device, gpu_scene, lit, gbuffer, incident, settings,
                                                           sample)
 
@@ -75,6 +77,7 @@ def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSet
     bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
     cache = stage("cache", light_cache, gpu_scene, octree, bvh, settings.cache_rays, settings.injection_samples,
                   settings.bounces)
+    device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels, "bounces": cache.n_bounces})
     return lambda gbuffer, incident, sample: gather_rays(device, gpu_scene, cache, bvh, gbuffer, incident,
                                                          settings, sample)
 

@@ -46,7 +46,7 @@ VIEWS = (
 class RenderSettings:
     """One render's settings. Angles in radians, lengths in voxels where the label says so."""
 
-    method: str = _setting("cones", "Method", "How indirect light is gathered", "Sampling", choices=METHODS)
+    method: str = _setting("rays", "Method", "How indirect light is gathered", "Sampling", choices=METHODS)
     samples: int = _setting(16, "Samples", "Pictures with shifted pixel centres that are averaged into the final one",
                             "Sampling", low=1, high=65536)
     viewport_samples: int = _setting(16, "Viewport Samples", "Samples after which a resting viewport stops", "Sampling",
@@ -62,7 +62,7 @@ class RenderSettings:
     cache_rays: int = _setting(8, "Cache Rays", "Rays with which each surface in the octree gathers its light", "Rays",
                                low=1, high=1024)
     bounces: int = _setting(12, "Bounces", "Most bounces of diffuse light after the first", "Rays", low=0, high=1024)
-    denoise: bool = _setting(False, "Denoise", "Smooth what noise the samples leave; less and less as there are more",
+    denoise: bool = _setting(True, "Denoise", "Smooth what noise the samples leave; less and less as there are more",
                              "Sampling")
     filter_width: float = _setting(1.5, "Filter Width", "Width of the Blackman-Harris pixel filter", "Film", low=0.01,
                                    high=10, unit="px")

@@ -102,7 +102,7 @@ def _opened(file: Path, texts: Texts, size: Size, frame: int | None
             ) -> Iterator[tuple[bpy.types.Scene, Callable[[], tuple[str, ...]]]]:
     """The scene of `file`, prepared, and a function that gives the warnings that Blender has reported so far."""
     checked = reduce(lambda settings, text: with_text(settings, *text), texts, RenderSettings())
-    register("svo_engine")
+    register()
     try:
         # Reports of operators go through Python's stdout
         with redirect_stdout(io.StringIO()) as reports:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
+from ..scene.camera import crop
 from ..scene.types import View
 
 Rect = tuple[int, int, int, int]
@@ -20,8 +21,8 @@ def view_of(context: bpy.types.Context, scene: bpy.types.Scene) -> tuple[View, R
     clip_from_view = np.array(region_data.window_matrix, "f8")
     box = _border(context.space_data, region_data, scene, clip_from_view)
     x, y, width, height = rect = _pixels(box, region.width, region.height)
-    crop = _stretch(x / region.width, y / region.height, width / region.width, height / region.height)
-    return View(np.array(region_data.view_matrix.inverted(), "f8"), crop @ clip_from_view, (width, height)), rect
+    clip = crop(x / region.width, y / region.height, (x + width) / region.width, (y + height) / region.height)
+    return View(np.array(region_data.view_matrix.inverted(), "f8"), clip @ clip_from_view, (width, height)), rect
 
 
 def _border(space: bpy.types.SpaceView3D, region_data: bpy.types.RegionView3D, scene: bpy.types.Scene,
@@ -56,11 +57,3 @@ def _pixels(box: Box, width: int, height: int) -> Rect:
     bottom, top = (int(np.clip(round(f * height), 0, height)) for f in (box[1], box[3]))
     left, bottom = min(left, width - 1), min(bottom, height - 1)
     return left, bottom, max(right - left, 1), max(top - bottom, 1)
-
-
-def _stretch(x: float, y: float, width: float, height: float) -> np.ndarray:
-    """Clip-space matrix (4, 4) that stretches a part of the picture, in fractions of it, over the whole."""
-    matrix = np.eye(4)
-    matrix[0, 0], matrix[0, 3] = 1 / width, (1 - 2 * x) / width - 1
-    matrix[1, 1], matrix[1, 3] = 1 / height, (1 - 2 * y) / height - 1
-    return matrix

@@ -7,13 +7,23 @@ import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from typing import Any
 
 import moderngl
 
 
+@dataclass(eq=False)
+class Sums:
+    """Of one frame: GPU milliseconds a pass, host milliseconds a step, counts."""
+
+    gpu_ms: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
+    host_ms: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
+    counts: Counter[str] = field(default_factory=Counter)
+
+
 class Profiler:
-    """Sums until `reset()`. Queries are kept and used again; they are read only when the numbers are asked for.
+    """Adds to the sums of the frame that has its turn. Queries are used again, and read when the numbers are asked for.
 
     Mesa's software renderer runs compute in the calling thread and its queries do not see it, so there the clock on the
     wall is read, with all work finished before and after.
@@ -23,46 +33,49 @@ class Profiler:
         self._ctx = ctx
         self._is_software = "llvmpipe" in str(ctx.info["GL_RENDERER"])
         self._idle: list[Any] = []
-        self._pending: list[tuple[str, Any]] = []
-        self._gpu_ms: defaultdict[str, float] = defaultdict(float)
-        self._host_ms: defaultdict[str, float] = defaultdict(float)
-        self.counts: Counter[str] = Counter()
+        self._pending: list[tuple[Sums, str, Any]] = []
+        self.sums = Sums()
+
+    @property
+    def counts(self) -> Counter[str]:
+        """Of the frame that has its turn."""
+        return self.sums.counts
 
     @contextmanager
     def gpu(self, name: str) -> Iterator[None]:
         """Time the OpenGL commands issued inside, under `name`; not nestable. Counts one `name` in `counts`."""
-        self.counts[name] += 1
+        sums = self.sums
+        sums.counts[name] += 1
         if self._is_software:
             self._ctx.finish()
             start = time.perf_counter()
             yield
             self._ctx.finish()
-            self._gpu_ms[name] += (time.perf_counter() - start) * 1e3
+            sums.gpu_ms[name] += (time.perf_counter() - start) * 1e3
             return
         if len(self._pending) > 256:
             self._collect()
         query = self._idle.pop() if self._idle else self._ctx.query(time=True)
         with query:
             yield
-        self._pending.append((name, query))
+        self._pending.append((sums, name, query))
 
     @contextmanager
     def host(self, name: str) -> Iterator[None]:
         """Time the host's work inside, under `name`."""
         start = time.perf_counter()
         yield
-        self._host_ms[name] += (time.perf_counter() - start) * 1e3
+        self.sums.host_ms[name] += (time.perf_counter() - start) * 1e3
 
     def times_ms(self) -> dict[str, float]:
-        """Milliseconds by name since `reset()`; GPU passes as `stage/entry`, host steps as plain words."""
+        """Milliseconds by name; GPU passes as `stage/entry`, host steps as plain words."""
         self._collect()
-        return {**self._host_ms, **self._gpu_ms}
+        return {**self.sums.host_ms, **self.sums.gpu_ms}
 
-    def reset(self) -> None:
-        """Start a new frame's sums."""
-        self._collect()
-        for sums in (self._gpu_ms, self._host_ms, self.counts):
-            sums.clear()
+    def reset(self) -> Sums:
+        """Start a new frame's sums and return them: the frame sets `sums` to them again after others had a turn."""
+        self.sums = Sums()
+        return self.sums
 
     def release(self) -> None:
         """Give the queries up."""
@@ -70,7 +83,7 @@ class Profiler:
         self._idle.clear()
 
     def _collect(self) -> None:
-        for name, query in self._pending:
-            self._gpu_ms[name] += query.elapsed / 1e6
+        for sums, name, query in self._pending:
+            sums.gpu_ms[name] += query.elapsed / 1e6
             self._idle.append(query)
         self._pending.clear()

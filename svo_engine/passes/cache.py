@@ -60,7 +60,6 @@ def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, n
         largest = float(np.frombuffer(change.read(4), "f4")[0])
         brightest = max(brightest, largest)
         n_bounces += 1
-    device.profiler.counts["bounces"] = n_bounces
     return LightCache(scope, octree, entries, n_bounces)
 
 

@@ -72,3 +72,5 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh
         RAYS, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
         **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), **incident.planes, Lights=gpu_scene.lights,
         u_sample=sample, u_seed=settings.seed)
+    width, height = gbuffer.targets.size
+    device.profiler.counts["diffuse rays"] += width * height * settings.gather_rays

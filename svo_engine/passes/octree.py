@@ -66,7 +66,6 @@ def build_octree(device: Device, gpu_scene: GpuScene, n: int) -> Octree:
         first, n_surfels = number_bits(device, scratch, masks, n_node)
         device.ctx.copy_buffer(words, first, 4 * n_node, write_offset=8 * n_top + 4 * n_node)
         surfels = _surfels(device, scope, scratch, gpu_scene, {**work, **tree}, n_tiles, n_surfels, grid)
-    device.profiler.counts.update({"nodes": n_nodes, "surfels": n_surfels})
     return Octree(scope, grid, words, surfels, n_nodes, n_surfels)
 
 

@@ -90,7 +90,6 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
                         **work, **gpu_scene.materials, **bits, **unit)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
         device.dispatch(AVERAGE, n**3 // 32, constants, Voxels=voxels, **grid.uniforms(), **bits, **unit)
-    device.profiler.counts["voxels"] = n_voxels
     return Voxels(scope, grid, occupancy, voxels, n_voxels)
 
 

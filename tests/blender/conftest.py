@@ -20,6 +20,6 @@ def extension():
     """The extension, registered for one test."""
     from svo_engine import blender
 
-    blender.register("svo_engine")
+    blender.register()
     yield blender
     blender.unregister()

@@ -25,7 +25,7 @@ def ours():
 def test_twice_in_a_row_leaves_nothing(empty):
     before = ours()
     for _ in range(2):
-        blender.register("svo_engine")
+        blender.register()
         assert ours() != before
         empty.render.engine = "SVO_ENGINE"
         blender.unregister()
@@ -43,7 +43,7 @@ def test_flags_of_the_engine(extension):
 def test_unregister_closes_the_session(monkeypatch):
     closed = []
     monkeypatch.setattr(session.current, "close", lambda: closed.append(True))
-    blender.register("svo_engine")
+    blender.register()
     blender.unregister()
     assert closed == [True]
 
@@ -62,7 +62,7 @@ def test_python_ends_well_while_registered():
     code = """
 import bpy
 from svo_engine import blender
-blender.register("svo_engine")
+blender.register()
 bpy.context.scene.render.engine = "SVO_ENGINE"
 """
     # Blender 4.5 hangs here if the engine stays registered: a limit turns that into a failure

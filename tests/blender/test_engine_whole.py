@@ -76,7 +76,7 @@ def test_stats_name_the_device_and_the_stages(scene):
 def test_unregistering_frees_the_device_and_the_next_render_makes_a_new_one(scene, extension):
     first = combined(scene)
     extension.unregister()
-    extension.register("svo_engine")
+    extension.register()
     scene = bpy.context.scene
     scene.svo.samples, scene.svo.resolution = 2, "32"
     np.testing.assert_array_equal(combined(scene), first)

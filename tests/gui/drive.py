@@ -31,7 +31,7 @@ def start(script: Script) -> None:
 
     PICTURES.mkdir(parents=True, exist_ok=True)
     bpy.context.preferences.view.show_splash = False
-    blender.register("svo_engine")
+    blender.register()
     bpy.app.timers.register(partial(_step, script, []), first_interval=2.0, persistent=True)
 
 

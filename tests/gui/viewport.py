@@ -129,7 +129,7 @@ def lifetimes() -> drive.Script:
     blender.unregister()
     yield 1.0
     assert workers() == 0
-    blender.register("svo_engine")
+    blender.register()
     show("SOLID")
     yield 1.0
     show("RENDERED")
