@@ -10,6 +10,7 @@ from svo_engine.errors import GpuError
 from svo_engine.gpu import device as device_module
 from svo_engine.passes.upload import upload
 from svo_engine.passes.voxelize import PADDING, make_grid, voxelize
+from svo_engine.scene import layouts
 from tests import scenes
 
 
@@ -27,16 +28,19 @@ def test_a_scene_without_extent_has_a_grid():
     assert make_grid(0.0, 64).voxel_size > 0
 
 
-def bits_of(device, scene, n=32) -> tuple[bytes, bytes]:
+def bits_of(device, scene, n=32) -> tuple[bytes, ...]:
+    """Occupancy, and every field of the voxels; between the fields memory holds whatever it held before."""
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
         voxels = voxelize(device, gpu_scene, n)
         with voxels.scope:
-            return voxels.occupancy.read(), voxels.voxels.read()
+            size = layouts.dtype(layouts.VOXEL).itemsize * voxels.n_voxels
+            rows = np.frombuffer(voxels.voxels.read(size), layouts.dtype(layouts.VOXEL))
+            return voxels.occupancy.read(), *(rows[name].tobytes() for name in rows.dtype.names or ())
 
 
 def test_voxels_are_the_same_bits_however_the_work_is_cut(device, monkeypatch):
-    """32 threads add to one voxel in any order; small slices change that order."""
+    """Threads add to one voxel in any order; small slices change that order."""
     scene = scenes.cornell(things=(scenes.Thing(scenes.sphere("Ball", 0.3, 20), places=(scenes.moved(0.4, 0, 0.5),)),))
     first = bits_of(device, scene)
     assert bits_of(device, scene) == first
