@@ -7,8 +7,7 @@
 #include "bind/materials.glsl"
 
 const bool HAS_ALPHA = false;
-const bool STACK_SHARED = false;  // in shared memory, which is quicker on processors; workgroups have 64 invocations then
-const int STACK = 64;             // the trees' height
+const int STACK = 64;  // two more than the trees' height
 
 layout(std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
 layout(std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
@@ -16,9 +15,6 @@ layout(std430) readonly buffer BvhInstances { BvhInstance bvh_instances[]; };
 
 uniform uint u_bvh_root;     // of the tree of instances, BVH_NONE if there are none
 uniform float u_bvh_extent;  // the scene's largest coordinate
-
-shared uint trace_stack_shared[STACK_SHARED ? 64 * STACK : 1];
-uint trace_stack[STACK_SHARED ? 1 : STACK];
 
 const float BOX_MARGIN = 1e-6;  // of the coordinates: more than the error of the triangle test, eight roundings of 6e-8
 
@@ -89,19 +85,6 @@ bool is_cut_out(uint instance, uint triangle, vec2 bary, uint seed)
     return alpha_at(material, uv, true) <= r2_point(0u, hash(seed ^ hash(instance ^ hash(triangle)))).x;
 }
 
-void push_stack(int at, uint reference)
-{
-    if (STACK_SHARED)
-        trace_stack_shared[at * 64 + int(gl_LocalInvocationIndex)] = reference;
-    else
-        trace_stack[at] = reference;
-}
-
-uint read_stack(int at)
-{
-    return STACK_SHARED ? trace_stack_shared[at * 64 + int(gl_LocalInvocationIndex)] : trace_stack[at];
-}
-
 // The ray in the space of an instance: d keeps its length in world units, so that t stays what it is.
 Ray enter_instance(BvhInstance instance, vec3 o, vec3 d)
 {
@@ -111,31 +94,58 @@ Ray enter_instance(BvhInstance instance, vec3 o, vec3 d)
     return make_ray(o_os, d_os, instance.extent);
 }
 
-// The nearest hit, or with `any_will_do` some hit, before t_max. One loop over both levels: while `bottom` is not
-// negative the ray is in `instance`, whose nodes lie on the stack above it.
+// References yet to visit: BVH_NONE lies below those of the tree of instances, and below those of an instance.
+uint trace_stack[STACK];
+int trace_top;
+
+void push(uint reference)
+{
+    trace_stack[trace_top++] = reference;
+}
+
+uint pop()
+{
+    return trace_stack[--trace_top];
+}
+
+// What comes after a node: the nearer child that the ray meets, while the other one waits.
+uint next_of(uint reference, Ray ray, float t_max)
+{
+    BvhNode node = bvh_nodes[reference];
+    float t_a, t_b;
+    bool in_a = meets_box(ray, node.low_a, node.high_a, t_max, t_a);
+    bool in_b = meets_box(ray, node.low_b, node.high_b, t_max, t_b);
+    if (!in_a && !in_b)
+        return pop();
+    bool is_a_next = in_a && (!in_b || t_a <= t_b);
+    if (in_a && in_b)
+        push(is_a_next ? node.child_b : node.child_a);
+    return is_a_next ? node.child_a : node.child_b;
+}
+
+// The nearest hit, or with `any_will_do` some hit, before t_max. Both levels in one loop, and a loop inside it over nodes
+// alone, so that neighbours come to their leaves together.
 bool trace(vec3 o, vec3 d, float t_max, uint seed, const bool any_will_do, out Hit hit)
 {
     hit = Hit(t_max, BVH_NONE, 0u, vec2(0.0));
-    Ray ray = make_ray(o, d, u_bvh_extent);
-    uint reference = u_bvh_root, instance = 0u;
-    int top = 0, bottom = -1;
-    while (reference != BVH_NONE) {
-        uint next = BVH_NONE;
-        if (reference < BVH_LEAF) {
-            BvhNode node = bvh_nodes[reference];
-            float t_a, t_b;
-            bool in_a = meets_box(ray, node.low_a, node.high_a, hit.t, t_a);
-            bool in_b = meets_box(ray, node.low_b, node.high_b, hit.t, t_b);
-            bool is_a_first = in_a && (!in_b || t_a <= t_b);
-            if (in_a && in_b)
-                push_stack(top++, is_a_first ? node.child_b : node.child_a);
-            if (in_a || in_b)
-                next = is_a_first ? node.child_a : node.child_b;
-        } else if (bottom < 0) {
+    Ray ray = make_ray(o, d, u_bvh_extent), ray_ws = ray;
+    trace_top = 0;
+    push(BVH_NONE);
+    uint reference = u_bvh_root, instance = BVH_NONE;
+    while (true) {
+        while (reference < BVH_LEAF)
+            reference = next_of(reference, ray, hit.t);
+        if (reference == BVH_NONE && instance == BVH_NONE)
+            break;
+        if (reference == BVH_NONE) {
+            instance = BVH_NONE;
+            ray = ray_ws;
+            reference = pop();
+        } else if (instance == BVH_NONE) {
             instance = reference - BVH_LEAF;
             ray = enter_instance(bvh_instances[instance], o, d);
-            next = bvh_instances[instance].root;
-            bottom = top;
+            reference = bvh_instances[instance].root;
+            push(BVH_NONE);
         } else {
             BvhTriangle triangle = bvh_triangles[reference - BVH_LEAF];
             float t;
@@ -146,12 +156,8 @@ bool trace(vec3 o, vec3 d, float t_max, uint seed, const bool any_will_do, out H
                 if (any_will_do)
                     return true;
             }
+            reference = pop();
         }
-        if (next == BVH_NONE && top == bottom) {
-            ray = make_ray(o, d, u_bvh_extent);
-            bottom = -1;
-        }
-        reference = next == BVH_NONE && top > 0 ? read_stack(--top) : next;
     }
     return hit.instance != BVH_NONE;
 }
