@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    the mean irradiance of one kind (lamps or indirect) without the surface's colour, and the variance of that mean.
 // Formula:    E = pi sum(rho E / pi) / sum(rho); var = (sum(Y^2) / n - Y^2) / (n - 1), with few samples estimated from the
-//             pixels around [Schied17]
+//             pixels around
 // In:         u_film, u_n_samples
 // Out:        u_light: rgb E [W m^-2], a variance of its luminance; negative where there is no diffuse surface
 // Invocation: one pixel
@@ -33,21 +33,26 @@ float luminance(vec3 c)
     return dot(c, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// Variance of one sample, from the luminances of like surfaces around.
+// Variance of one sample, from second differences along the rows around, which light that changes evenly does not have:
+// those of noise have the variance 1 + 4 + 1.
 float spatial_variance(ivec2 pixel)
 {
     vec3 n = normalize(texelFetch(u_film, ivec3(pixel, PLANE_NORMAL_DEPTH), 0).xyz + 1e-9);
-    float sum = 0.0, squares = 0.0, weight = 0.0;
-    for (int y = -RADIUS; y <= RADIUS; y++)
+    float squares = 0.0, weight = 0.0;
+    for (int y = -RADIUS; y <= RADIUS; y++) {
+        vec3 Y = vec3(0.0), w = vec3(0.0);  // of three neighbours
         for (int x = -RADIUS; x <= RADIUS; x++) {
             ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), u_size - 1);
             vec4 color = texelFetch(u_film, ivec3(at, PLANE_DIFFUSE_COLOR), 0);
             vec3 other = normalize(texelFetch(u_film, ivec3(at, PLANE_NORMAL_DEPTH), 0).xyz + 1e-9);
-            float w = color.a > 0.0 ? pow(max(dot(n, other), 0.0), 32.0) : 0.0, Y = luminance(irradiance(at, color.rgb));
-            sum += w * Y, squares += w * Y * Y, weight += w;
+            Y = vec3(Y.yz, luminance(irradiance(at, color.rgb)));
+            w = vec3(w.yz, color.a > 0.0 ? pow(max(dot(n, other), 0.0), 32.0) : 0.0);
+            float bend = Y.x - 2.0 * Y.y + Y.z, together = w.x * w.y * w.z;
+            squares += together * bend * bend / 6.0;
+            weight += together;
         }
-    float mean = sum / max(weight, 1e-6);
-    return max(squares / max(weight, 1e-6) - mean * mean, 0.0);
+    }
+    return squares / max(weight, 1e-6);
 }
 
 void main()
