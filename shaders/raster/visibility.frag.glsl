@@ -11,6 +11,7 @@ const bool HAS_ALPHA = false;
 const bool HAS_TEXTURES = false;
 
 uniform uint u_sample;
+uniform uint u_seed;
 
 flat in uvec2 v_instance_triangle;
 in vec2 v_bary;
@@ -23,7 +24,7 @@ void main()
     if (HAS_ALPHA) {
         vec2 uv = HAS_TEXTURES ? uv_at(triangle, v_bary) : vec2(0.0);
         uvec2 pixel = uvec2(gl_FragCoord.xy);
-        uint seed = hash(pixel.x + hash(pixel.y + hash(instance ^ hash(triangle))));
+        uint seed = hash(pixel.x + hash(pixel.y + hash(instance ^ hash(triangle ^ hash(u_seed)))));
         if (alpha_at(material_of(instance, triangle), uv, HAS_TEXTURES) <= r2_point(u_sample, seed).x)
             discard;
     }

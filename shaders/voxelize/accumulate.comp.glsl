@@ -13,7 +13,7 @@
 const bool HAS_TEXTURES = false;
 const bool HAS_EMISSION = false;
 const int SUMS = 11;            // words a voxel, 8 without emission
-const float ONE = 262144.0;     // fixed point's unit: 2^18 a voxel's face leaves room for 16384 faces in a voxel
+const float ONE = 262144.0;     // fixed point's unit: 2^18 a voxel's face leaves 8191 faces to a voxel's signed sums
 
 layout(local_size_x = 64) in;
 

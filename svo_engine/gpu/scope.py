@@ -35,7 +35,7 @@ class GpuScope:
         self.close()
 
     def close(self) -> None:
-        """Release all that was made here; the scope is empty afterwards and may be filled again."""
+        """Release all that was made here; a second call does nothing."""
         self._stack.close()
         self.n_bytes = self.n_objects = 0
         self.device.scopes.discard(self)

@@ -18,7 +18,7 @@ from .upload import GpuScene
 from .voxelize import GEOMETRY, MATERIALS
 
 VISIBILITY = Pass(("raster/visibility.vert.glsl", "raster/visibility.frag.glsl"), (*GEOMETRY, *MATERIALS),
-                  uniforms=("u_clip_from_world", "u_first_instance", "u_first_triangle", "u_sample"))
+                  uniforms=("u_clip_from_world", "u_first_instance", "u_first_triangle", "u_sample", "u_seed"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,5 +91,6 @@ def raster(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, se
     for draw in gpu_scene.draws:
         device.draw(VISIBILITY, targets.framebuffer, 3 * draw.n_triangles, draw.n_instances, constants,
                     **gpu_scene.geometry, **gpu_scene.materials, u_clip_from_world=clip_from_world,
-                    u_first_instance=draw.first_instance, u_first_triangle=draw.first_triangle, u_sample=sample)
+                    u_first_instance=draw.first_instance, u_first_triangle=draw.first_triangle, u_sample=sample,
+                    u_seed=settings.seed)
     return GBuffer(targets, np.linalg.inv(clip_from_world))

@@ -94,6 +94,13 @@ def test_alpha_is_a_share_of_the_samples(session, alpha):
     assert np.allclose(picture[..., :3], picture[..., 3:] * (1, 2, 3), atol=1e-5)
 
 
+def test_another_seed_cuts_out_other_pixels(session):
+    sheet = scenes.Thing(scenes.quad("Sheet", (-9, 0, -9), (18, 0, 0), (0, 0, 18)), replace(GLOW, alpha=0.5))
+    scene = scenes.scene(sheet, camera=CAMERA, film_transparent=True)
+    patterns = [picture_of(session, scene, filter_width=0.01, seed=seed)[..., 3] for seed in (0, 1)]
+    assert 0.3 < (patterns[0] != patterns[1]).mean() < 0.7
+
+
 def test_an_alpha_texture_cuts_out(session):
     """The left half of the image is clear."""
     image = Image("Half", np.array([[[1, 1, 1, 0], [1, 1, 1, 1]]], "f4"))
