@@ -56,7 +56,7 @@ class RenderSettings:
     seed: int = _setting(0, "Seed", "Another number gives another pattern of noise", "Sampling", low=0, high=2**31 - 1)
     gather_rays: int = _setting(4, "Diffuse Rays", "Rays of each pixel and sample that look for indirect light", "Rays",
                                 low=1, high=64)
-    cache_resolution: str = _setting("64", "Light Cache",
+    cache_resolution: str = _setting("128", "Light Cache",
                                      "Voxels along the longest side of the octree that holds the light",
                                      "Rays", choices=CACHE_RESOLUTIONS)
     cache_rays: int = _setting(8, "Cache Rays", "Rays with which each surface in the octree gathers its light", "Rays",
