@@ -81,7 +81,7 @@ class Nodes:
         self.tree.nodes.clear()
         self.output = self.tree.nodes.new(f"ShaderNodeOutput{kind}")
 
-    def new(self, kind, _from=None, **inputs):
+    def new(self, kind, **inputs):
         """A node; an input takes a constant, or what another node gives: the node itself (first output) or a socket."""
         node = self.tree.nodes.new(f"ShaderNode{kind}")
         for name, value in inputs.items():
