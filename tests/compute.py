@@ -21,15 +21,16 @@ _BASES = {"v": "f4", "f": "f4", "u": "u4", "i": "i4", "b": "u4"}
 
 def evaluate(device: Device, result: str, expression: str, includes: Sequence[str] = (), prelude: str = "",
              buffers: Mapping[str, Any] | None = None, uniforms: Mapping[str, Any] | None = None,
-             textures: Mapping[str, Any] | None = None, **inputs: np.ndarray) -> np.ndarray:
+             textures: Mapping[str, Any] | None = None, constants: Mapping[str, bool | int | float] | None = None,
+             **inputs: np.ndarray) -> np.ndarray:
     """`expression`, of the GLSL type `result`, for every row: (n, width) or (n,).
 
     inputs    (n, width) or (n,) f4, u4 or i4, or rows of a dtype of `layouts`: variables of the expression
-    buffers   the storage blocks, uniforms and textures that the included files declare, arrays or buffers
+    buffers   the storage blocks, uniforms, textures and constants that the included files declare, arrays or buffers
     """
     n = len(next(iter(inputs.values())))
     base, width = _BASES[result[0]], int(result[-1]) if result[-1].isdigit() else 1
-    source = _source(result, base, expression, includes, prelude, inputs)
+    source = _source(result, base, expression, includes, prelude, inputs, constants)
     program: Any = device.ctx.compute_shader(source.text)
     with device.scope() as scope:
         out = scope.buffer("result", 16 * n, clear=True)
@@ -54,7 +55,7 @@ def evaluate(device: Device, result: str, expression: str, includes: Sequence[st
 
 
 def _source(result: str, base: str, expression: str, includes: Sequence[str], prelude: str,
-            inputs: Mapping[str, np.ndarray]) -> glsl.Source:
+            inputs: Mapping[str, np.ndarray], constants: Mapping[str, bool | int | float] | None) -> glsl.Source:
     """A compute shader that evaluates `expression` once a row."""
     kind = _VECTORS[base[0]][1]
     declared, read = [], []
@@ -75,7 +76,7 @@ def _source(result: str, base: str, expression: str, includes: Sequence[str], pr
         for shared in ("lib", "bind"):
             (root / shared).symlink_to(glsl.SHADER_DIR / shared)
         (root / "test.comp.glsl").write_text("\n".join(lines) + "\n")
-        return glsl.compose("test.comp.glsl", root=root)
+        return glsl.compose("test.comp.glsl", constants, root)
 
 
 def _types(rows: np.ndarray) -> tuple[str, str, str]:

@@ -30,7 +30,7 @@ SURVIVE = Pass(("bvh/survive.comp.glsl",), ("Neighbours", "Places"))
 MERGE = Pass(("bvh/merge.comp.glsl",), ("Clusters", "Neighbours", "Places", "Merged", "BvhNodes"),
              uniforms=("u_first_node",))
 
-RADIUS = 4  # neighbours on each side: 16 make trees of mixed sizes 4 % better, others no better, in three times the time
+RADIUS = 4  # neighbours on each side: 16 make trees of mixed sizes 4 % better, no others, in three times the time
 HIGHEST = 48  # nodes on any way from root to leaf; a million triangles grow to about 30
 FEWEST = 16  # of the clusters that could merge, one in so many has to: the shape of few scenes asks for less
 LEAF, NONE = layouts.CONSTANTS["BVH_LEAF"], layouts.CONSTANTS["BVH_NONE"]
@@ -194,7 +194,7 @@ def _grow(device: Device, nodes: Any, first_node: int, leaves: np.ndarray, n_tre
             take_next = (n - n_left) * FEWEST < n - n_trees
             first_node += n - n_left
             n, clusters, merged = n_left, merged, clusters
-        return np.frombuffer(clusters.read(leaves.itemsize * n), leaves.dtype)
+        return np.frombuffer(clusters.read(leaves.itemsize * n) if n else b"", leaves.dtype)
 
 
 def _height(grown: np.ndarray) -> int:
