@@ -14,7 +14,7 @@ vec3 world_radiance(vec3 d, float tan_half_angle)
     if (!u_has_env)
         return u_world_radiance;
     vec3 e = u_env_from_world * d;
-    vec2 uv = vec2(0.5 - atan(e.y, e.x) / (2.0 * PI), 0.5 + asin(clamp(e.z, -1.0, 1.0)) / PI);
+    vec2 uv = vec2(0.5 - atan(e.y, e.x) / (2.0 * PI), 0.5 + atan(e.z, length(e.xy)) / PI);
     float texels = 2.0 * tan_half_angle / PI * float(textureSize(u_env, 0).y);
     return u_world_radiance * textureLod(u_env, uv, log2(max(texels, 1.0))).rgb;
 }

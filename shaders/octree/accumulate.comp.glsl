@@ -5,7 +5,7 @@
 // Out:        Sums: per surfel area, albedo, normal, centroid in the voxel, voxel and axis, emission: SUMS words
 // Invocation: one tile of 8x8 columns of one triangle
 
-#include "bind/voxel_work.glsl"
+#include "bind/visit_voxels.glsl"
 #include "bind/octree.glsl"
 #include "bind/materials.glsl"
 
@@ -14,12 +14,8 @@ const bool HAS_EMISSION = false;
 const int SUMS = 14;            // words a surfel, 11 without emission
 const float ONE = 262144.0;     // fixed point's unit: 2^18 a voxel's face leaves room for 8192 faces in a voxel
 
-layout(local_size_x = 64) in;
-
 layout(std430) buffer Sums { uint sums[]; };
 
-uniform uint u_first;
-uniform uint u_end;
 uniform float u_emission_unit;  // radiance that counts as 1
 
 void add(uint at, float value)
@@ -27,7 +23,7 @@ void add(uint at, float value)
     atomicAdd(sums[at], uint(int(round(value * ONE))));  // negative numbers wrap round, as two's complement wants it
 }
 
-void accumulate(Tile tile, vec3 n, ivec3 cell)
+void visit(Tile tile, ivec3 cell)
 {
     int axis = tile.shape.axis;
     ivec3 voxel = turned_back(cell, axis);
@@ -38,8 +34,8 @@ void accumulate(Tile tile, vec3 n, ivec3 cell)
     uint material = material_of(tile.instance, tile.triangle);
     Shading s = shading_at(material, uv, HAS_TEXTURES);
     vec3 albedo = clamp(s.base_color * (1.0 - materials[material].transmission), 0.0, 1.0);
-    vec3 inside = part.xyz - vec3(cell);
-    inside = axis == 0 ? inside.zxy : axis == 1 ? inside.yzx : inside;
+    vec3 inside = turned_back(part.xyz - vec3(cell), axis), n = unit_normal(tile.shape);
+    n = turned_back(n.z < 0.0 ? -n : n, axis);
     add(at, area);
     for (int i = 0; i < 3; i++) {
         add(at + 1u + uint(i), area * albedo[i]);
@@ -49,25 +45,4 @@ void accumulate(Tile tile, vec3 n, ivec3 cell)
             add(at + 11u + uint(i), area * max(s.emission[i], 0.0) / u_emission_unit);
     }
     sums[at + 10u] = uint(voxel.x | voxel.y << 10 | voxel.z << 20) | uint(axis) << 30u;  // the same from every writer
-}
-
-void main()
-{
-    uint index = u_first + gl_GlobalInvocationID.x;
-    if (index >= u_end)
-        return;
-    Tile tile = tile_at(index);
-    uvec4 corners = triangles[tile.triangle];
-    vec3 a = vertex_ws(tile.instance, corners.x), b = vertex_ws(tile.instance, corners.y), c = vertex_ws(tile.instance, corners.z);
-    vec3 n = normalize(cross(b - a, c - a));
-    n *= n[tile.shape.axis] < 0.0 ? -1.0 : 1.0;
-    for (int y = tile.low.y; y <= tile.high.y; y++)
-        for (int x = tile.low.x; x <= tile.high.x; x++) {
-            if (!touches_column(tile.shape, ivec2(x, y)))
-                continue;
-            ivec2 range = column_range(tile.shape, ivec2(x, y));
-            for (int z = range.x; z <= range.y; z++)
-                if (touches_cell(tile.shape, ivec3(x, y, z)))
-                    accumulate(tile, n, ivec3(x, y, z));
-        }
 }

@@ -6,7 +6,7 @@
 // Out:        Sums: per voxel area, albedo, normal, covered area, emission, SUMS words in this order
 // Invocation: one tile of 8x8 columns of one triangle
 
-#include "bind/voxel_work.glsl"
+#include "bind/visit_voxels.glsl"
 #include "bind/voxels.glsl"
 #include "bind/materials.glsl"
 
@@ -15,13 +15,9 @@ const bool HAS_EMISSION = false;
 const int SUMS = 11;            // words a voxel, 8 without emission
 const float ONE = 262144.0;     // fixed point's unit: 2^18 a voxel's face leaves 8191 faces to a voxel's signed sums
 
-layout(local_size_x = 64) in;
-
 layout(std430) buffer Sums { uint sums[]; };
 layout(std430) readonly buffer VoxelFirst { uint voxel_first[]; };
 
-uniform uint u_first;
-uniform uint u_end;
 uniform float u_emission_unit;  // radiance that counts as 1
 
 void add(uint at, float value)
@@ -29,7 +25,7 @@ void add(uint at, float value)
     atomicAdd(sums[at], uint(int(round(value * ONE))));  // negative numbers wrap round, as two's complement wants it
 }
 
-void accumulate(Tile tile, ivec3 cell)
+void visit(Tile tile, ivec3 cell)
 {
     uvec2 address = occupancy_address(turned_back(cell, tile.shape.axis));
     uint below = occupancy[address.x] & ((1u << address.y) - 1u);
@@ -52,21 +48,4 @@ void accumulate(Tile tile, ivec3 cell)
     if (HAS_EMISSION)
         for (int i = 0; i < 3; i++)
             add(at + 8u + uint(i), area * max(s.emission[i], 0.0) / u_emission_unit);
-}
-
-void main()
-{
-    uint index = u_first + gl_GlobalInvocationID.x;
-    if (index >= u_end)
-        return;
-    Tile tile = tile_at(index);
-    for (int y = tile.low.y; y <= tile.high.y; y++)
-        for (int x = tile.low.x; x <= tile.high.x; x++) {
-            if (!touches_column(tile.shape, ivec2(x, y)))
-                continue;
-            ivec2 range = column_range(tile.shape, ivec2(x, y));
-            for (int z = range.x; z <= range.y; z++)
-                if (touches_cell(tile.shape, ivec3(x, y, z)))
-                    accumulate(tile, ivec3(x, y, z));
-        }
 }

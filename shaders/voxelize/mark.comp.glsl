@@ -4,29 +4,11 @@
 // Out:        Occupancy; OR knows no order, so the bits are the same in every run
 // Invocation: one tile of 8x8 columns of one triangle
 
-#include "bind/voxel_work.glsl"
+#include "bind/visit_voxels.glsl"
 #include "bind/voxels.glsl"
 
-layout(local_size_x = 64) in;
-
-uniform uint u_first;
-uniform uint u_end;
-
-void main()
+void visit(Tile tile, ivec3 cell)
 {
-    uint index = u_first + gl_GlobalInvocationID.x;
-    if (index >= u_end)
-        return;
-    Tile tile = tile_at(index);
-    for (int y = tile.low.y; y <= tile.high.y; y++)
-        for (int x = tile.low.x; x <= tile.high.x; x++) {
-            if (!touches_column(tile.shape, ivec2(x, y)))
-                continue;
-            ivec2 range = column_range(tile.shape, ivec2(x, y));
-            for (int z = range.x; z <= range.y; z++)
-                if (touches_cell(tile.shape, ivec3(x, y, z))) {
-                    uvec2 address = occupancy_address(turned_back(ivec3(x, y, z), tile.shape.axis));
-                    atomicOr(occupancy[address.x], 1u << address.y);
-                }
-        }
+    uvec2 address = occupancy_address(turned_back(cell, tile.shape.axis));
+    atomicOr(occupancy[address.x], 1u << address.y);
 }
