@@ -8,12 +8,13 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from .errors import GpuError
 from .film import Film
 from .gpu.device import Device
 from .gpu.kept import Kept
 from .gpu.thread import GpuThread
-from .passes.bvh import build_bvh, build_meshes
-from .passes.cache import light_cache
+from .passes.bvh import Bvh, build_bvh, build_meshes
+from .passes.cache import LightCache, light_cache
 from .passes.debug import make_attribute, show_voxels
 from .passes.denoise import make_pictures, read_picture
 from .passes.gather import Incident, gather_cones, gather_rays, make_incident
@@ -25,6 +26,8 @@ from .passes.upload import GpuScene, upload
 from .passes.voxelize import voxelize
 from .scene.types import Scene, View
 from .settings import RenderSettings
+
+SMALLEST_CACHE = 32  # voxels a side
 
 Stage = Callable[..., Any]
 Gather = Callable[[GBuffer, Incident, int], None]
@@ -46,7 +49,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
         elif settings.method == "cones":
             gather = _cones(stage, device, gpu_scene, view, settings)
         else:
-            gather = _rays(stage, device, gpu_scene, settings)
+            gather = _rays(stage, device, gpu_scene, settings, film.limits)
         for sample in range(settings.samples):
             gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample)
             if gather:
@@ -71,15 +74,30 @@ def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settin
                                                           sample)
 
 
-def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings) -> Gather:
+def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings, limits: list[str]) -> Gather:
     """Light on the surfaces in an octree, gathered by rays with exact hits."""
-    octree = stage("octree", build_octree, gpu_scene, int(settings.cache_resolution))
     bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
-    cache = stage("cache", light_cache, gpu_scene, octree, bvh, settings.cache_rays, settings.injection_samples,
-                  settings.bounces)
+    cache = _fitting_cache(stage, gpu_scene, bvh, settings, limits)
+    octree = cache.octree
     device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels, "bounces": cache.n_bounces})
     return lambda gbuffer, incident, sample: gather_rays(device, gpu_scene, cache, bvh, gbuffer, incident,
                                                          settings, sample)
+
+
+def _fitting_cache(stage: Stage, gpu_scene: GpuScene, bvh: Bvh, settings: RenderSettings,
+                   limits: list[str]) -> LightCache:
+    """The light cache at the asked resolution, or at the highest below it that the device has room for."""
+    n = int(settings.cache_resolution)
+    while True:
+        try:
+            octree = stage("octree", build_octree, gpu_scene, n)
+            return stage("cache", light_cache, gpu_scene, octree, bvh, settings.cache_rays, settings.injection_samples,
+                         settings.bounces)
+        except GpuError as error:
+            if n <= SMALLEST_CACHE:
+                raise
+            limits.append(f"The light cache has {n // 2} voxels a side instead of {n}: {error}")
+            n //= 2
 
 
 def _voxel_view(stage: Stage, device: Device, gpu_scene: GpuScene, view: View,
@@ -143,5 +161,5 @@ def _read(film: GpuFilm, device: Device, kept: Kept, scene: Scene, settings: Ren
     counts = {"triangles": scene.n_triangles, "lights": len(scene.lights), "samples": film.n_samples,
               "device bytes": device.n_bytes, **device.profiler.counts}
     read.stats.update(device=device.info["renderer"], times_ms=device.profiler.times_ms(), counts=counts,
-                      resolution=int(settings.resolution))
+                      limits=film.limits, resolution=int(settings.resolution))
     return read

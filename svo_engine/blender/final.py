@@ -68,3 +68,5 @@ def _render_view(engine: bpy.types.RenderEngine, frame: Frame, name: str, view: 
         engine.end_result(result, cancel=film is None)
     if film is not None and not engine.is_preview:
         session.keep_stats(film)
+        for limit in film.stats.get("limits", ()):
+            engine.report({"WARNING"}, limit)

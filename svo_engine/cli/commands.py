@@ -61,8 +61,8 @@ def _render_npz(args: argparse.Namespace, pictures: list[Path]) -> dict[str, Any
         session.close()
     for path in pictures:
         film.save(path)
-    return {"settings": asdict(settings), "size": film.size, "n_samples": film.n_samples, "warnings": scene.warnings,
-            **film.stats}
+    return {"settings": asdict(settings), "size": film.size, "n_samples": film.n_samples, **film.stats,
+            "warnings": (*scene.warnings, *film.stats["limits"])}
 
 
 def extract(args: argparse.Namespace) -> None:

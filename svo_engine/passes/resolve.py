@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..gpu.device import Device
@@ -27,6 +27,7 @@ class GpuFilm:
 
     gbuffer  of the latest sample
     is_last  whether the frame ends with this one
+    limits   a sentence for each setting that the device was too small for
     """
 
     scope: GpuScope
@@ -35,6 +36,7 @@ class GpuFilm:
     n_samples: int = 0
     is_last: bool = False
     gbuffer: GBuffer | None = None
+    limits: list[str] = field(default_factory=list)
 
 
 def make_film(device: Device, size: tuple[int, int]) -> GpuFilm:
