@@ -41,8 +41,9 @@ def evaluate(device: Device, result: str, expression: str, includes: Sequence[st
                 made = block if hasattr(block, "bind_to_storage_buffer") else scope.buffer(name, block)
                 made.bind_to_storage_buffer(slot)
         for slot, (name, texture) in enumerate((textures or {}).items()):
-            program[name].value = slot
-            texture.use(slot)
+            if name in program:
+                device.calls["glProgramUniform1i"](program.glo, program[name].location, slot)
+                texture.use(slot)
         for name, value in (uniforms or {}).items():
             if name in program:
                 program[name].value = tuple(value.T.ravel().tolist()) if isinstance(value, np.ndarray) else value

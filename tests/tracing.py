@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 
 from svo_engine.gpu.device import Device
-from svo_engine.passes.bvh import Bvh, build_bvh, build_meshes
+from svo_engine.passes.bvh import TRACE, TRACE_UNIFORMS, Bvh, build_bvh, build_meshes
 from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.scene.types import Scene
 from tests.compute import evaluate
 
 NOTHING = 0xFFFFFFFF
-TRACE = ("bind/trace.glsl",)
 PRELUDE = """
 uvec4 closest(vec3 o, vec3 d, float t_max, uint seed)
 {
@@ -56,13 +55,13 @@ class Traced:
 
     def call(self, result: str, expression: str, prelude: str = "", **inputs: np.ndarray) -> np.ndarray:
         """An expression with bind/trace.glsl for every row of `inputs`."""
-        resources = {**self.gpu_scene.geometry, **self.gpu_scene.materials, **self.bvh.resources()}
+        resources = self.bvh.resources()
         constants = {"HAS_ALPHA": self.gpu_scene.has_alpha, **self.bvh.constants()}
         rows: dict[str, Any] = {name: _f4(values) for name, values in inputs.items()}
-        return evaluate(self.device, result, expression, TRACE, PRELUDE + prelude,
-                        {name: r for name, r in resources.items() if hasattr(r, "bind_to_storage_buffer")},
-                        {name: r for name, r in resources.items() if isinstance(r, (int, float))},
-                        constants=constants, **rows)
+        return evaluate(self.device, result, expression, ("bind/trace.glsl",), PRELUDE + prelude,
+                        {**self.gpu_scene.geometry, **self.gpu_scene.materials},
+                        {name: resources[name] for name in TRACE_UNIFORMS}, {name: resources[name] for name in TRACE},
+                        constants, **rows)
 
     def closest(self, o: np.ndarray, d: np.ndarray, t_max: Any = 1e30, seed: int = 0) -> Hits:
         """The nearest hits."""

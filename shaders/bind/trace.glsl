@@ -9,9 +9,9 @@
 const bool HAS_ALPHA = false;
 const int STACK = 64;  // two more than the trees' height
 
-layout(std430) readonly buffer BvhNodes { BvhNode bvh_nodes[]; };
-layout(std430) readonly buffer BvhTriangles { BvhTriangle bvh_triangles[]; };
-layout(std430) readonly buffer BvhInstances { BvhInstance bvh_instances[]; };
+uniform usamplerBuffer u_bvh_nodes;      // of BvhNode, and so on, 16 bytes a texel
+uniform usamplerBuffer u_bvh_triangles;
+uniform usamplerBuffer u_bvh_instances;
 
 uniform uint u_bvh_root;     // of the tree of instances, BVH_NONE if there are none
 uniform float u_bvh_extent;  // the scene's largest coordinate
@@ -24,6 +24,27 @@ struct Hit {
     uint triangle;
     vec2 bary;  // of the second and third corner
 };
+
+BvhNode node_at(uint i)
+{
+    uvec4 a = texelFetch(u_bvh_nodes, int(4u * i)), b = texelFetch(u_bvh_nodes, int(4u * i + 1u)),
+          c = texelFetch(u_bvh_nodes, int(4u * i + 2u)), d = texelFetch(u_bvh_nodes, int(4u * i + 3u));
+    return BvhNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz));
+}
+
+BvhTriangle triangle_at(uint i)
+{
+    uvec4 a = texelFetch(u_bvh_triangles, int(3u * i)), b = texelFetch(u_bvh_triangles, int(3u * i + 1u)),
+          c = texelFetch(u_bvh_triangles, int(3u * i + 2u));
+    return BvhTriangle(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), uintBitsToFloat(c.xyz));
+}
+
+BvhInstance instance_at(uint i)
+{
+    uvec4 a = texelFetch(u_bvh_instances, int(4u * i)), b = texelFetch(u_bvh_instances, int(4u * i + 1u)),
+          c = texelFetch(u_bvh_instances, int(4u * i + 2u)), d = texelFetch(u_bvh_instances, int(4u * i + 3u));
+    return BvhInstance(uintBitsToFloat(a), uintBitsToFloat(b), uintBitsToFloat(c), d.x, uintBitsToFloat(d.y));
+}
 
 // A ray in the space of one tree.
 struct Ray {
@@ -111,7 +132,7 @@ uint pop()
 // What comes after a node: the nearer child that the ray meets, while the other one waits.
 uint next_of(uint reference, Ray ray, float t_max)
 {
-    BvhNode node = bvh_nodes[reference];
+    BvhNode node = node_at(reference);
     float t_a, t_b;
     bool in_a = meets_box(ray, node.low_a, node.high_a, t_max, t_a);
     bool in_b = meets_box(ray, node.low_b, node.high_b, t_max, t_b);
@@ -143,11 +164,12 @@ bool trace(vec3 o, vec3 d, float t_max, uint seed, const bool any_will_do, out H
             reference = pop();
         } else if (instance == BVH_NONE) {
             instance = reference - BVH_LEAF;
-            ray = enter_instance(bvh_instances[instance], o, d);
-            reference = bvh_instances[instance].root;
+            BvhInstance entered = instance_at(instance);
+            ray = enter_instance(entered, o, d);
+            reference = entered.root;
             push(BVH_NONE);
         } else {
-            BvhTriangle triangle = bvh_triangles[reference - BVH_LEAF];
+            BvhTriangle triangle = triangle_at(reference - BVH_LEAF);
             float t;
             vec2 bary;
             if (meets_triangle(ray, triangle, hit.t, t, bary)

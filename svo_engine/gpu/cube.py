@@ -24,6 +24,7 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {
     "glActiveTexture": (_U,),
     "glBindTexture": (_U, _U),
     "glTexParameteri": (_U, _U, _I),
+    "glTexBuffer": (_U, _U, _U),
     "glTexStorage3D": (_U, _I, _U, _I, _I, _I),
     "glTexSubImage3D": (_U, _I, _I, _I, _I, _I, _I, _I, _U, _U, _P),
     "glBindImageTexture": (_U, _U, _I, ctypes.c_ubyte, _I, _U, _U),

@@ -147,12 +147,12 @@ class Device:
                 if kind is pass_.buffers:
                     program[name].binding = slot
                     resource.bind_to_storage_buffer(slot)
-                elif kind is pass_.textures:
-                    program[name].value = slot
+                    continue
+                # moderngl writes garbage into uniforms of type image3D and usamplerBuffer
+                self.calls["glProgramUniform1i"](program.glo, program[name].location, slot)
+                if kind is pass_.textures:
                     resource.use(slot)
                 else:
-                    # moderngl writes garbage into uniforms of type image3D
-                    self.calls["glProgramUniform1i"](program.glo, program[name].location, slot)
                     _bind_image(resource, slot)
         _set_uniforms(program, {name: resources[name] for name in pass_.uniforms})
 

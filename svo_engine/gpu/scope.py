@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import GpuError
 from .cube import Cube
+from .texels import TEXEL, Texels
 
 if TYPE_CHECKING:
     from .device import Device
@@ -83,6 +84,15 @@ class GpuScope:
             raise GpuError(f"Texture '{label}' needs {n} texels a side, the device allows {largest} "
                            "(GL_MAX_3D_TEXTURE_SIZE)")
         return self._make(label, 8 * n**3 * 8 // 7, lambda: Cube(self.device.calls, n))
+
+    def texels(self, label: str, data: np.ndarray | int) -> Texels:
+        """A storage buffer, as `buffer` makes it, that shaders can read as texels too."""
+        n_bytes, most = data if isinstance(data, int) else data.nbytes, self.device.limits["GL_MAX_TEXTURE_BUFFER_SIZE"]
+        if n_bytes > TEXEL * most:
+            raise GpuError(f"Buffer '{label}' needs {_mib(n_bytes)}, the device reads {_mib(TEXEL * most)} as texels "
+                           "(GL_MAX_TEXTURE_BUFFER_SIZE)")
+        buffer = self.buffer(label, data)
+        return self._make(label, 0, lambda: Texels(self.device.calls, buffer))
 
     def framebuffer(self, label: str, colors: list[moderngl.Texture], with_depth: bool) -> moderngl.Framebuffer:
         """A framebuffer over `colors`, with a 32-bit depth buffer of its own if `with_depth`."""

@@ -16,12 +16,13 @@ import numpy as np
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
+from ..gpu.texels import Texels
 from ..scene import layouts
 from ..scene.types import Mesh
 from .upload import GpuScene
 from .voxelize import scan
 
-TRACE = ("BvhNodes", "BvhTriangles", "BvhInstances")
+TRACE = ("u_bvh_nodes", "u_bvh_triangles", "u_bvh_instances")
 TRACE_UNIFORMS = ("u_bvh_root", "u_bvh_extent")
 
 NEAREST = Pass(("bvh/nearest.comp.glsl",), ("Clusters", "Neighbours"),
@@ -40,7 +41,7 @@ _NODE = layouts.dtype(layouts.BVH_NODE).itemsize
 
 @dataclass(frozen=True, eq=False)
 class MeshTrees:
-    """A tree for each mesh. nodes: n_nodes of layout BVH_NODE; triangles: layout BVH_TRIANGLE, the leaves.
+    """A tree for each mesh. nodes: n_nodes of layout BVH_NODE; triangles: texels of layout BVH_TRIANGLE, the leaves.
 
     roots   (n_meshes,) u4, reference of each tree's root, BVH_NONE for a mesh without triangles
     low     (n_meshes, 3) f4, metres, object space: the mesh's box; high likewise
@@ -49,7 +50,7 @@ class MeshTrees:
 
     scope: GpuScope
     nodes: Any
-    triangles: Any
+    triangles: Texels
     n_nodes: int
     roots: np.ndarray
     low: np.ndarray
@@ -59,19 +60,22 @@ class MeshTrees:
 
 @dataclass(frozen=True, eq=False)
 class Bvh:
-    """Both levels. nodes: those of all meshes, then those over the instances; height: of both levels together."""
+    """Both levels. nodes: those of all meshes, then those over the instances; height: of both levels together.
+
+    nodes and instances are texels of the layouts BVH_NODE and BVH_INSTANCE
+    """
 
     scope: GpuScope
     trees: MeshTrees
-    nodes: Any
-    instances: Any
+    nodes: Texels
+    instances: Texels
     root: int
     extent: float
     height: int
 
     def resources(self) -> dict[str, Any]:
-        """The buffers and uniforms of bind/trace.glsl, which reads the scene's geometry and materials too."""
-        return {"BvhNodes": self.nodes, "BvhTriangles": self.trees.triangles, "BvhInstances": self.instances,
+        """The textures and uniforms of bind/trace.glsl, which reads the scene's geometry and materials too."""
+        return {"u_bvh_nodes": self.nodes, "u_bvh_triangles": self.trees.triangles, "u_bvh_instances": self.instances,
                 "u_bvh_root": self.root, "u_bvh_extent": self.extent}
 
     def constants(self) -> dict[str, bool | int | float]:
@@ -94,7 +98,7 @@ def build_meshes(device: Device, meshes: tuple[Mesh, ...]) -> MeshTrees:
     triangles["triangle"] = order
     n_nodes = len(order) - int(is_used.sum())
     nodes = scope.buffer("bvh nodes of meshes", _NODE * n_nodes)
-    made = scope.buffer("bvh triangles", triangles)
+    made = scope.texels("bvh triangles", triangles)
     grown = _grow(device, nodes, 0, _leaves(low[order], high[order], tree), int(is_used.sum()))
     roots, boxes = np.full(len(meshes), NONE, "u4"), np.zeros((2, len(meshes), 3), "f4")
     roots[is_used], boxes[:, is_used] = grown["reference"], (grown["low"], grown["high"])
@@ -113,14 +117,14 @@ def build_bvh(device: Device, gpu_scene: GpuScene, trees: MeshTrees) -> Bvh:
     rows["extent"] = np.maximum(np.abs(trees.low), np.abs(trees.high)).max(1, initial=0)[mesh]
     shown = np.flatnonzero((rows["root"] != NONE) & world_from_object[:, :, :3].any((1, 2)))
     order = shown[_morton_order(low[shown], high[shown], np.zeros(len(shown), "u4"))]
-    nodes = scope.buffer("bvh nodes", _NODE * (trees.n_nodes + max(len(order) - 1, 0)))
+    nodes = scope.texels("bvh nodes", _NODE * (trees.n_nodes + max(len(order) - 1, 0)))
     if trees.n_nodes:
-        device.ctx.copy_buffer(nodes, trees.nodes, _NODE * trees.n_nodes)
+        device.ctx.copy_buffer(nodes.buffer, trees.nodes, _NODE * trees.n_nodes)
     leaves = _leaves(low[order], high[order], np.zeros(len(order), "u4"))
     leaves["reference"] = LEAF + order
-    grown = _grow(device, nodes, trees.n_nodes, leaves, min(len(order), 1))
+    grown = _grow(device, nodes.buffer, trees.n_nodes, leaves, min(len(order), 1))
     extent = float(np.abs([low[shown], high[shown]]).max(initial=0))
-    return Bvh(scope, trees, nodes, scope.buffer("bvh instances", rows),
+    return Bvh(scope, trees, nodes, scope.texels("bvh instances", rows),
                int(grown["reference"][0]) if len(grown) else NONE, extent, _height(grown) + trees.height)
 
 

@@ -21,9 +21,9 @@ CACHE = ("Octree", "Surfels", "Cache")
 CACHE_UNIFORMS = (*GRID, *TREE, "u_n_sides")
 PARTS = 4  # vec4 a side, see bind/cache.glsl
 
-DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *TRACE, *CACHE, "Lights"),
+DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Lights"), textures=TRACE,
               uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS))
-BOUNCE = Pass(("cache/bounce.comp.glsl",), (*GEOMETRY, *MATERIALS, *TRACE, *CACHE, "Change"), textures=("u_env",),
+BOUNCE = Pass(("cache/bounce.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Change"), textures=("u_env", *TRACE),
               uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, "u_from"))
 
 TOLERANCE = 5e-3  # of the brightest radiance: bounces end when none changes more

@@ -27,8 +27,8 @@ CONES = Pass(("gather/cones.comp.glsl",), (*GEOMETRY, *MATERIALS, "Lights"),
                        "u_ring_angle", "u_tan_half_aperture", "u_tan_half_shadow", "u_specular_cone"))
 
 
-RAYS = Pass(("gather/rays.comp.glsl",), (*GEOMETRY, *MATERIALS, *TRACE, *CACHE, "Lights"),
-            textures=("u_visibility", "u_env"), images=PLANES,
+RAYS = Pass(("gather/rays.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Lights"),
+            textures=("u_visibility", "u_env", *TRACE), images=PLANES,
             uniforms=(*CAMERA, *WORLD, *CACHE_UNIFORMS, *TRACE_UNIFORMS, "u_sample", "u_seed"))
 
 

@@ -81,7 +81,7 @@ def walk(nodes: np.ndarray, root: int, low: np.ndarray, high: np.ndarray, leaf_b
 def walk_meshes(trees: MeshTrees, meshes: tuple[Mesh, ...]) -> list[Walked | None]:
     """Each mesh's tree, None for one without triangles; together they have each triangle in one leaf."""
     nodes = np.frombuffer(trees.nodes.read(), NODE, trees.n_nodes)
-    leaves = np.frombuffer(trees.triangles.read(), TRIANGLE)
+    leaves = np.frombuffer(trees.triangles.buffer.read(), TRIANGLE)
     corners = np.concatenate([mesh.positions[mesh.triangles] for mesh in meshes])
     stored = np.stack([leaves[name] for name in "abc"], 1)[: len(corners)]
     triangle = leaves["triangle"][: len(corners)]
@@ -144,7 +144,7 @@ def test_the_same_bits_every_time(device):
     mesh, others = mesh_of(soup(3000)), [mesh_of(soup(50 + i, seed=i)) for i in range(20)]
     with trees_of(device, mesh) as first, trees_of(device, mesh) as second:
         assert first.nodes.read() == second.nodes.read()
-        assert first.triangles.read() == second.triangles.read()
+        assert first.triangles.buffer.read() == second.triangles.buffer.read()
         alone = walk_meshes(first, (mesh,))[0]
     with trees_of(device, *others, mesh) as trees:
         among = walk_meshes(trees, (*others, mesh))[-1]
@@ -207,7 +207,7 @@ def test_the_tree_of_instances(device):
     with trees_of(device, mesh) as trees:
         gpu_scene = upload(device, scene)
         with gpu_scene.scope, (bvh := build_bvh(device, gpu_scene, trees)).scope:
-            nodes = np.frombuffer(bvh.nodes.read(), NODE)
+            nodes = np.frombuffer(bvh.nodes.buffer.read(), NODE)
             assert (nodes[: trees.n_nodes] == np.frombuffer(trees.nodes.read(), NODE)).all()
             assert trees.n_nodes <= bvh.root < LEAF
             points = np.array(places)[:, None, :3, :3] @ mesh.positions[:, :, None]
