@@ -5,6 +5,7 @@ VENV := .venv
 RUN := $(VENV)/bin/python
 SCENE ?= sample_blends/cornell_suzanne_point.blend
 OUT ?= out
+SIZE ?= 400x300
 
 .DEFAULT_GOAL := help
 .PHONY: help setup render test lint package clean
@@ -15,9 +16,9 @@ help: ## List the targets
 setup: $(VENV)/.libraries ## Install everything into .venv, and the system libraries when run as root
 	@echo "All that is needed is installed; make help lists what can be done with it."
 
-render: $(VENV)/.libraries ## Render a sample scene; SCENE=FILE.blend and OUT=FOLDER choose others
+render: $(VENV)/.libraries ## Render a sample scene; SCENE=FILE.blend, OUT=FOLDER and SIZE=WxH choose others
 	@mkdir -p $(OUT)
-	$(RUN) -m svo_engine render $(SCENE) --out $(OUT)/
+	$(RUN) -m svo_engine render $(SCENE) --out $(OUT)/ --size $(SIZE)
 
 test: lint $(VENV)/.libraries ## Run the linters and all tests
 	$(RUN) -m pytest
