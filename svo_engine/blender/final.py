@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import bpy
@@ -17,8 +18,8 @@ from .extract.camera import read_camera
 from .properties import settings_of
 
 # A preview is an icon or a small sphere: it must come at once
-_PREVIEW_SETTINGS = RenderSettings(samples=4, resolution="32")
-_UPDATE_SECONDS = 0.3
+_PREVIEW_SETTINGS = RenderSettings(samples=4, cache_resolution="32", bounces=2)
+_UPDATE_SECONDS = 0.3  # between pictures for whoever watches
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +58,9 @@ def _render_view(engine: bpy.types.RenderEngine, frame: Frame, name: str, view: 
     """Render one view; whatever there is when it ends, also by an error or a cancel, stays in the result."""
     engine.update_stats("", "Preparing")
     result = engine.begin_result(0, 0, *view.size, layer=frame.layer, view=name)
-    film = None
+    film, interval = None, math.inf if bpy.app.background else _UPDATE_SECONDS
     try:
-        for film in session.current.films(frame.scene, view, frame.settings, engine.test_break, _UPDATE_SECONDS):
+        for film in session.current.films(frame.scene, view, frame.settings, engine.test_break, interval):
             present.fill_result(result, film, name)
             engine.update_result(result)
             engine.update_progress(film.n_samples / frame.settings.samples)

@@ -278,5 +278,5 @@ def test_preview_is_small_work_and_leaves_the_stats(scene, fake, monkeypatch):
     session.last_stats["kept"] = 1
     render(scene)
     (_, _, settings), = fake.calls
-    assert (settings.samples, settings.resolution, settings.view) == (4, "32", "combined")
+    assert (settings.samples, settings.cache_resolution, settings.view) == (4, "32", "combined")
     assert session.last_stats == {"kept": 1}
