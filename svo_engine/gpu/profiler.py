@@ -31,7 +31,7 @@ class Profiler:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx = ctx
-        self._is_software = "llvmpipe" in str(ctx.info["GL_RENDERER"])
+        self.is_software = "llvmpipe" in str(ctx.info["GL_RENDERER"])
         self._idle: list[Any] = []
         self._pending: list[tuple[Sums, str, Any]] = []
         self.sums = Sums()
@@ -46,7 +46,7 @@ class Profiler:
         """Time the OpenGL commands issued inside, under `name`; not nestable. Counts one `name` in `counts`."""
         sums = self.sums
         sums.counts[name] += 1
-        if self._is_software:
+        if self.is_software:
             self._ctx.finish()
             start = time.perf_counter()
             yield

@@ -33,7 +33,7 @@ MERGE = Pass(("bvh/merge.comp.glsl",), ("Clusters", "Neighbours", "Places", "Mer
 
 RADIUS = 4  # neighbours on each side: 16 make trees of mixed sizes 4 % better, no others, in three times the time
 HIGHEST = 48  # nodes on any way from root to leaf; a million triangles grow to about 30
-FEWEST = 16  # of the clusters that could merge, one in so many has to: the shape of few scenes asks for less
+FEWEST = 128  # of the clusters that could merge, one in so many has to, or all go by twos in the next round
 LEAF, NONE = layouts.CONSTANTS["BVH_LEAF"], layouts.CONSTANTS["BVH_NONE"]
 _HEIGHT_BITS = layouts.CONSTANTS["BVH_HEIGHT_BITS"]
 _NODE = layouts.dtype(layouts.BVH_NODE).itemsize
@@ -72,6 +72,7 @@ class Bvh:
     root: int
     extent: float
     height: int
+    in_lockstep: bool
 
     def resources(self) -> dict[str, Any]:
         """The textures and uniforms of bind/trace.glsl, which reads the scene's geometry and materials too."""
@@ -80,7 +81,7 @@ class Bvh:
 
     def constants(self) -> dict[str, bool | int | float]:
         """The constants of bind/trace.glsl but HAS_ALPHA; the stack in steps, so that few variants are compiled."""
-        return {"STACK": -(-(self.height + 2) // 8) * 8}
+        return {"STACK": -(-(self.height + 2) // 8) * 8, "IN_LOCKSTEP": self.in_lockstep}
 
 
 def build_meshes(device: Device, meshes: tuple[Mesh, ...]) -> MeshTrees:
@@ -125,7 +126,8 @@ def build_bvh(device: Device, gpu_scene: GpuScene, trees: MeshTrees) -> Bvh:
     grown = _grow(device, nodes.buffer, trees.n_nodes, leaves, min(len(order), 1))
     extent = float(np.abs([low[shown], high[shown]]).max(initial=0))
     return Bvh(scope, trees, nodes, scope.texels("bvh instances", rows),
-               int(grown["reference"][0]) if len(grown) else NONE, extent, _height(grown) + trees.height)
+               int(grown["reference"][0]) if len(grown) else NONE, extent, _height(grown) + trees.height,
+               device.profiler.is_software)
 
 
 def _matrices(gpu_scene: GpuScene) -> tuple[np.ndarray, np.ndarray]:
