@@ -23,7 +23,7 @@ from svo_engine.scene.types import Camera
 from svo_engine.settings import specs
 from tests import scenes
 
-QUICK = ("--set", "resolution=32", "--samples", "2")
+QUICK = ("--method", "cones", "--set", "resolution=32", "--set", "denoise=off", "--samples", "2")
 
 
 @pytest.fixture
