@@ -35,7 +35,7 @@ class Surfels:
     def keys(self) -> np.ndarray:
         """(n, 4) i8: voxel and axis of each."""
         word = self.rows["voxel"]
-        return np.stack([word & 1023, word >> 10 & 1023, word >> 20, self.rows["axis"]], 1).astype("i8")
+        return np.stack([word & 1023, word >> 10 & 1023, word >> 20 & 1023, word >> 30], 1).astype("i8")
 
     @property
     def positions(self) -> np.ndarray:
@@ -58,7 +58,8 @@ def unpack_units(words: np.ndarray) -> np.ndarray:
 
 def read_surfels(gpu_scene: GpuScene, octree: Octree) -> Surfels:
     """The surfels of an octree that exists."""
-    rows = np.frombuffer(octree.surfels.read(SURFEL.itemsize * octree.n_surfels), SURFEL)
+    size = SURFEL.itemsize * octree.n_surfels
+    rows = np.frombuffer(octree.surfels.read(size) if size else b"", SURFEL)
     return Surfels(rows, octree.grid, gpu_scene.centre_ws, octree.n_nodes, octree.scope.n_bytes)
 
 

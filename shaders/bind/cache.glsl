@@ -20,6 +20,16 @@ uint cache_entry(uint part, uint side)
     return part * u_n_sides + side;
 }
 
+const float START = 0.05;  // voxels between a side and its rays: its mean position may lie below a curved surface
+
+// Where the rays of a side start, n the surfel's normal turned to that side: over the outermost surface that faces this
+// way, so that a board thinner than a voxel is not looked at from inside.
+vec3 side_position(Surfel s, uint side, vec3 n)
+{
+    vec2 outer = unpackHalf2x16(s.outer);
+    return s.position + n * ((START + (side % 2u == 0u ? outer.x : outer.y)) / u_voxels_per_metre);
+}
+
 // Side of the cache at a surface point seen from the direction d of a ray, n any normal of the surface; or NOTHING.
 uint cache_side(vec3 p_ws, vec3 n, vec3 d)
 {

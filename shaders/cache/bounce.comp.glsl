@@ -11,7 +11,6 @@
 #include "bind/trace.glsl"
 
 const int N_RAYS = 16;
-const float START = 0.05;  // as in cache/direct
 
 layout(local_size_x = 64) in;
 
@@ -40,7 +39,7 @@ void main()
         return;
     Surfel s = surfels[side / 2u];
     vec3 n = unpack_unit(s.normal) * (side % 2u == 0u ? 1.0 : -1.0);
-    vec3 o = s.position + n * (START / u_voxels_per_metre), E = vec3(0.0);
+    vec3 o = side_position(s, side, n), E = vec3(0.0);
     mat3 frame = frame_of(n);
     for (int k = 0; k < N_RAYS; k++)
         E += PI / float(N_RAYS) * arriving(o, frame * cosine_direction(r2_point(uint(k), hash(side))), hash(side) + uint(k));

@@ -9,7 +9,6 @@
 #include "bind/lamps.glsl"
 
 const int N_POINTS = 4;
-const float START = 0.05;  // voxels between the surfel and its rays: its mean position may lie below a curved surface
 
 layout(local_size_x = 64) in;
 
@@ -24,7 +23,7 @@ void main()
     Surfel surfel = surfels[side / 2u];
     Surface s;
     s.normal = s.normal_geometric = unpack_unit(surfel.normal) * (side % 2u == 0u ? 1.0 : -1.0);
-    s.position = surfel.position + s.normal * (START / u_voxels_per_metre);
+    s.position = side_position(surfel, side, s.normal);
     s.lift = vec3(0.0);
     vec3 E = vec3(0.0);
     for (int k = 0; k < N_POINTS; k++)

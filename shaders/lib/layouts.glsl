@@ -93,7 +93,7 @@ struct Surfel {
     vec3 albedo;
     uint voxel;
     vec3 emission;
-    uint axis;
+    uint outer;
 };
 
 struct BvhNode {

@@ -2,7 +2,8 @@
 // Purpose:    add what each triangle brings to each surfel, weighted by its area inside the voxel.
 // Formula:    sum_i A_i x_i in fixed point: integer addition knows no order, so the sums are the same in every run
 // In:         triangles, materials, octree
-// Out:        Sums: per surfel area, albedo, normal, centroid in the voxel, voxel and axis, emission: SUMS words
+// Out:        Sums: per surfel area, albedo, normal, centroid in the voxel, voxel and axis, how far out the outermost planes
+//             lie that face front and back, emission: SUMS words
 // Invocation: one tile of 8x8 columns of one triangle
 
 #include "bind/visit_voxels.glsl"
@@ -11,7 +12,7 @@
 
 const bool HAS_TEXTURES = false;
 const bool HAS_EMISSION = false;
-const int SUMS = 14;            // words a surfel, 11 without emission
+const int SUMS = 16;            // words a surfel, 13 without emission
 const float ONE = 262144.0;     // fixed point's unit: 2^18 a voxel's face leaves room for 8192 faces in a voxel
 
 layout(std430) buffer Sums { uint sums[]; };
@@ -35,6 +36,7 @@ void visit(Tile tile, ivec3 cell)
     Shading s = shading_at(material, uv, HAS_TEXTURES);
     vec3 albedo = clamp(s.base_color * (1.0 - materials[material].transmission), 0.0, 1.0);
     vec3 inside = turned_back(part.xyz - vec3(cell), axis), n = unit_normal(tile.shape);
+    bool is_front = n.z * handedness(instances[tile.instance]) > 0.0;
     n = turned_back(n.z < 0.0 ? -n : n, axis);
     add(at, area);
     for (int i = 0; i < 3; i++) {
@@ -42,7 +44,9 @@ void visit(Tile tile, ivec3 cell)
         add(at + 4u + uint(i), area * n[i]);
         add(at + 7u + uint(i), area * inside[i]);
         if (HAS_EMISSION)
-            add(at + 11u + uint(i), area * max(s.emission[i], 0.0) / u_emission_unit);
+            add(at + 13u + uint(i), area * max(s.emission[i], 0.0) / u_emission_unit);
     }
     sums[at + 10u] = uint(voxel.x | voxel.y << 10 | voxel.z << 20) | uint(axis) << 30u;  // the same from every writer
+    float height = dot(inside - 0.5, n);
+    atomicMax(sums[at + (is_front ? 11u : 12u)], uint(round((1.0 + (is_front ? height : -height)) * ONE)));
 }

@@ -10,7 +10,8 @@
 #include "bind/grid.glsl"
 
 const bool HAS_EMISSION = false;
-const int SUMS = 14;
+const int SUMS = 16;
+const float ONE = 262144.0;       // as in octree/accumulate
 const float MAX_ALBEDO = 0.9999;  // below 1, so that the light of endless bounces ends
 
 layout(local_size_x = 64) in;
@@ -27,6 +28,12 @@ vec3 mean3(uint at, float area)
     return vec3(int(sums[at]), int(sums[at + 1u]), int(sums[at + 2u])) / area;
 }
 
+// How far the outermost plane of one side lies beyond the mean position; 0 if no surface faces that way.
+float beyond(uint plane, float height)
+{
+    return plane == 0u ? 0.0 : float(plane) / ONE - 1.0 - height;
+}
+
 void main()
 {
     uint i = u_first + gl_GlobalInvocationID.x;
@@ -35,10 +42,12 @@ void main()
     uint at = i * uint(SUMS), key = sums[at + 10u];
     float area = float(sums[at]);
     vec3 voxel = vec3(key & 1023u, key >> 10u & 1023u, key >> 20u & 1023u);
-    surfels[i].position = u_grid_low + (voxel + clamp(mean3(at + 7u, area), 0.0, 1.0)) / u_voxels_per_metre;
-    surfels[i].normal = pack_unit(normalize(mean3(at + 4u, area)));
+    vec3 inside = clamp(mean3(at + 7u, area), 0.0, 1.0), n = normalize(mean3(at + 4u, area));
+    surfels[i].position = u_grid_low + (voxel + inside) / u_voxels_per_metre;
+    surfels[i].normal = pack_unit(n);
     surfels[i].albedo = clamp(mean3(at + 1u, area), 0.0, MAX_ALBEDO);
-    surfels[i].emission = HAS_EMISSION ? mean3(at + 11u, area) * u_emission_unit : vec3(0.0);
-    surfels[i].voxel = key & 0x3fffffffu;
-    surfels[i].axis = key >> 30u;
+    surfels[i].emission = HAS_EMISSION ? mean3(at + 13u, area) * u_emission_unit : vec3(0.0);
+    surfels[i].voxel = key;
+    float height = dot(inside - 0.5, n);
+    surfels[i].outer = packHalf2x16(vec2(beyond(sums[at + 11u], height), beyond(sums[at + 12u], -height)));
 }

@@ -86,7 +86,7 @@ def _surfels(device: Device, scope: GpuScope, scratch: GpuScope, gpu_scene: GpuS
              n_tiles: int, n_surfels: int, grid: Grid) -> Any:
     """The buffer of surfels."""
     has_emission = gpu_scene.emission_unit > 0
-    constants = {"HAS_EMISSION": has_emission, "SUMS": 14 if has_emission else 11}
+    constants = {"HAS_EMISSION": has_emission, "SUMS": 16 if has_emission else 13}
     sums = scratch.buffer("surfel sums", 4 * constants["SUMS"] * n_surfels, clear=True)
     unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
     device.dispatch(ACCUMULATE, n_tiles, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
