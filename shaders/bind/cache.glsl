@@ -30,11 +30,36 @@ vec3 side_position(Surfel s, uint side, vec3 n)
     return s.position + n * ((START + (side % 2u == 0u ? outer.x : outer.y)) / u_voxels_per_metre);
 }
 
+// The surfel whose light is that of point p of surfel s: where another surface cuts the voxel and the mean position of s
+// lies behind it, the one in the voxel beside, so that light of one room stays out of the other.
+uint on_this_side(uint s, vec3 p_ws)
+{
+    ivec3 voxel = ivec3(floor(to_voxels(p_ws)));
+    int axis = int(surfels[s].voxel >> 30u);
+    for (int i = 1; i < 3; i++) {
+        int other = (axis + i) % 3;
+        uint wall = find_surfel(voxel, other);
+        if (wall == NOTHING)
+            continue;
+        vec3 n = unpack_unit(surfels[wall].normal), at = surfels[wall].position;
+        float height = dot(p_ws - at, n);
+        if (height * dot(surfels[s].position - at, n) >= 0.0)
+            continue;
+        ivec3 beside = voxel;
+        beside[other] += height > 0.0 ? 1 : -1;
+        uint found = find_surfel(beside, axis);
+        if (found != NOTHING)
+            return found;
+    }
+    return s;
+}
+
 // Side of the cache at a surface point seen from the direction d of a ray, n any normal of the surface; or NOTHING.
 uint cache_side(vec3 p_ws, vec3 n, vec3 d)
 {
     uint surfel = surfel_at(to_voxels(p_ws), n);
     if (surfel == NOTHING)
         return NOTHING;
+    surfel = on_this_side(surfel, p_ws);
     return 2u * surfel + (dot(unpack_unit(surfels[surfel].normal), d) < 0.0 ? 0u : 1u);
 }
