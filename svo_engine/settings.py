@@ -59,7 +59,7 @@ class RenderSettings:
     cache_resolution: str = _setting("128", "Light Cache",
                                      "Voxels along the longest side of the octree that holds the light",
                                      "Rays", choices=CACHE_RESOLUTIONS)
-    cache_rays: int = _setting(8, "Cache Rays", "Rays with which each surface in the octree gathers its light", "Rays",
+    cache_rays: int = _setting(16, "Cache Rays", "Rays with which each surface in the octree gathers its light", "Rays",
                                low=1, high=1024)
     bounces: int = _setting(12, "Bounces", "Most bounces of diffuse light after the first", "Rays", low=0, high=1024)
     denoise: bool = _setting(True, "Denoise", "Smooth what noise the samples leave; less and less as there are more",
