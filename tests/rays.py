@@ -33,6 +33,15 @@ def above(side: float = 2.0, z: float = 5.0, size: tuple[int, int] = (32, 24)) -
     return Camera("Above", place, size, is_orthographic=True, ortho_scale=side, clip_start=0.001)
 
 
+def directions(camera: Camera) -> np.ndarray:
+    """(height, width, 3) f8, unit: along which a perspective camera looks through its pixels' centres."""
+    width, height = camera.size
+    x = ((np.arange(width) + 0.5) / width - 0.5) * camera.sensor[0] / camera.lens
+    y = ((np.arange(height) + 0.5) / width - 0.5 * height / width) * camera.sensor[0] / camera.lens
+    d = np.stack([*np.meshgrid(x, y), np.full((height, width), -1.0)], -1) @ camera.world_from_camera[:3, :3].T
+    return d / np.linalg.norm(d, axis=2, keepdims=True)
+
+
 def floor_points(camera: Camera) -> np.ndarray:
     """(height, width, 3) f8: what the pixels' centres of a camera `above` see of the plane z = 0."""
     width, height = camera.size

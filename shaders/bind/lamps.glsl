@@ -26,7 +26,7 @@ vec3 lamps_irradiance(Surface s, uint sample_index, uint seed)
 {
     vec3 E = vec3(0.0);
     for (int i = 0; i < N_LIGHTS; i++) {
-        LightSample light = visible_light(i, s, r2_point(sample_index, seed + uint(i)), seed);
+        LightSample light = visible_light(i, s, r2_point(sample_index, seed + uint(i)), hash(seed + sample_index));
         E += max(dot(s.normal, light.wi), 0.0) * light.E_perp;
     }
     return E;

@@ -66,7 +66,7 @@ vec3 diffuse_light(Surface s, uint seed)
             continue;
         Hit hit;
         uint ray_seed = hash(seed + uint(k) + 1u);
-        if (trace_closest(offset_origin(s.position, s.normal_geometric, d), d, INFINITE, ray_seed, hit))
+        if (trace_closest(offset_origin(s.position, s.normal_geometric, d), d, INFINITE, hash(ray_seed + u_sample), hit))
             E += leaving(met_at(hit, d), ray_seed);
         else
             E += world_radiance(d, 0.0);
@@ -86,7 +86,7 @@ vec3 specular_lamps(Surface s, vec3 wo, vec3 f0, float alpha, uint seed)
     vec3 L = vec3(0.0);
     float NoV = dot(s.normal, wo);
     for (int i = 0; i < N_LIGHTS; i++) {
-        LightSample light = visible_light(i, s, r2_point(u_sample, seed + uint(i)), seed);
+        LightSample light = visible_light(i, s, r2_point(u_sample, seed + uint(i)), hash(seed + u_sample));
         float NoL = dot(s.normal, light.wi);
         if (NoL > 0.0 && light.E_perp != vec3(0.0)) {
             vec3 h = normalize(light.wi + wo);
@@ -112,7 +112,7 @@ vec3 reflected_light(Surface s, Shading shading, vec3 wo, uint seed)
         beta *= weight;
         Hit hit;
         seed = hash(seed);
-        if (!trace_closest(offset_origin(s.position, s.normal_geometric, d), d, INFINITE, seed, hit))
+        if (!trace_closest(offset_origin(s.position, s.normal_geometric, d), d, INFINITE, hash(seed + u_sample), hit))
             return L + beta * world_radiance(d, 0.0);
         Met met = met_at(hit, d);
         s = met.surface, shading = met.shading, wo = -d;
