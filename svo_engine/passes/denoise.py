@@ -23,7 +23,7 @@ ATROUS = Pass(("denoise/atrous.comp.glsl",), textures=("u_film", "u_light_in"), 
 COMPOSE = Pass(("denoise/compose.comp.glsl",), textures=("u_film", "u_direct", "u_indirect"), images=("u_picture",),
                uniforms=("u_size", "u_n_samples"))
 
-STEPS = (1, 2, 4, 8, 16)  # pixels between the taps of each pass
+STEPS = (1, 2, 4, 8)  # pixels between the taps of each pass
 SIGMAS = 8.0  # with one sample, differences of so many standard deviations are noise; with n, 1 / sqrt(n) of that
 
 
