@@ -16,6 +16,8 @@ from tests.on_gpu import picture_of
 RAYS = {"method": "rays", "cache_resolution": "32", "cache_rays": 4, "gather_rays": 4, "bounces": 12,
         "injection_samples": 1, "filter_width": 0.01, "denoise": False}
 
+TURN = scenes.look((0.3, 0.5, 0.4)) * (1, 1, 1, 0) + np.diag([0, 0, 0, 1])  # about no axis of the grid
+
 
 def shot(session: Session, scene: Scene, **settings: Any) -> np.ndarray:
     """Radiance (height, width, 3) f8 by rays, some settings changed."""

@@ -10,10 +10,9 @@ import pytest
 
 from svo_engine.scene.types import Camera, Material, World
 from tests import scenes
-from tests.rays import above, directions, floor_points, glow, rectangle_share, shot
+from tests.rays import TURN, above, directions, floor_points, glow, rectangle_share, shot
 
 FLAT = 0.8 / np.pi  # what white surfaces send back of the irradiance
-TURN = scenes.look((0.3, 0.5, 0.4)) * (1, 1, 1, 0) + np.diag([0, 0, 0, 1])  # against the grid, about all axes
 EYE = scenes.look((-0.8, -0.7, -0.3), (0.5, 0.9, 0.2))
 
 
