@@ -46,7 +46,7 @@ VOXEL: Fields = (("emission", "vec3"), ("voxel", "uint"), ("albedo_coverage", "u
 
 # The surfaces in one voxel whose normals are widest along one axis, averaged by area. position: metres relative to the
 # grid's centre; normal: octahedral, its component along the axis positive; voxel: 10 bits an axis, above them the
-# normal's axis; outer: two halves, by how many voxels the outermost surface that faces front or back lies beyond position
+# normal's axis; outer: two halves, how many voxels the outermost surface facing front or back lies beyond position
 SURFEL: Fields = (("position", "vec3"), ("normal", "uint"), ("albedo", "vec3"), ("voxel", "uint"), ("emission", "vec3"),
                   ("outer", "uint"))
 
