@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: a surface met by a ray, and the light that leaves it.
+
+#include "bind/cache.glsl"
+#include "bind/lamps.glsl"
+#include "bind/surface.glsl"
+
+const bool HAS_TEXTURES = false;
+
+uniform uint u_sample;
+
+// A surface met by a ray, its normals turned against the ray.
+struct Met {
+    Surface surface;
+    Shading shading;
+    uint side;  // of the light cache
+};
+
+Met met_at(Hit hit, vec3 d)
+{
+    Met met;
+    met.surface = seen_surface(hit.instance, hit.triangle, hit.bary, -d, HAS_TEXTURES);
+    met.side = cache_side(met.surface.position, met.surface.normal_geometric, d);
+    met.shading = shading_at(met.surface.material, met.surface.uv, HAS_TEXTURES);
+    return met;
+}
+
+// Light that leaves a met surface against a diffuse ray: lamps exactly, all else from the cache. A metal counts as white
+// as its colour: what it mirrors is taken as its share of what arrives from everywhere.
+vec3 leaving(Met met, uint seed)
+{
+    vec3 E = lamps_irradiance(met.surface, u_sample, seed);
+    if (met.side != NOTHING)
+        E += cache[cache_entry(INDIRECT, met.side)].rgb;
+    vec3 rho = met.shading.base_color * (1.0 - materials[met.surface.material].transmission);
+    return met.shading.emission + rho / PI * E;
+}
