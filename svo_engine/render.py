@@ -49,7 +49,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
         elif settings.method == "cones":
             gather = _cones(stage, device, gpu_scene, view, settings)
         else:
-            gather = _rays(stage, device, gpu_scene, settings, film.limits)
+            gather = _rays(stage, device, gpu_scene, settings, film)
         for sample in range(settings.samples):
             gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample)
             if gather:
@@ -74,12 +74,12 @@ def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settin
                                                           sample)
 
 
-def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings, limits: list[str]) -> Gather:
+def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings, film: GpuFilm) -> Gather:
     """Light on the surfaces in an octree, gathered by rays with exact hits."""
     bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
-    cache = _fitting_cache(stage, gpu_scene, bvh, settings, limits)
+    cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, settings, film.limits)
     octree = cache.octree
-    device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels, "bounces": cache.n_bounces})
+    device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels})
     return lambda gbuffer, incident, sample: gather_rays(device, gpu_scene, cache, bvh, gbuffer, incident,
                                                          settings, sample)
 
@@ -160,6 +160,8 @@ def _read(film: GpuFilm, device: Device, kept: Kept, scene: Scene, settings: Ren
         read = read_picture(device, film, stage("pictures", make_pictures, film.size), settings.denoise)
     counts = {"triangles": scene.n_triangles, "lights": len(scene.lights), "samples": film.n_samples,
               "device bytes": device.n_bytes, **device.profiler.counts}
+    if film.cache:
+        counts["bounces"] = film.cache.n_bounces()
     read.stats.update(device=device.info["renderer"], times_ms=device.profiler.times_ms(), counts=counts,
                       limits=film.limits, resolution=int(settings.resolution))
     return read

@@ -98,7 +98,7 @@ def lit_surfels(device: Device, scene: Scene, n: int = 32, rays: int = 16, point
         octree, trees = keep(build_octree(device, gpu_scene, n)), keep(build_meshes(device, scene.meshes))
         cache = keep(light_cache(device, gpu_scene, octree, keep(build_bvh(device, gpu_scene, trees)), rays, points,
                                  bounces))
-        surfels = read_surfels(gpu_scene, octree)
+        surfels, n_bounces = read_surfels(gpu_scene, octree), cache.n_bounces()
         bits = cache.entries.read(16 * PARTS * 2 * len(surfels.rows)) if len(surfels.rows) else b""
     parts = np.frombuffer(bits, "f4").astype("f8").reshape(PARTS, len(surfels.rows), 2, 4)[..., :3]
-    return Lit(surfels, parts[0], parts[1], parts[2 + cache.n_bounces % 2], cache.n_bounces, bits)
+    return Lit(surfels, parts[0], parts[2], parts[3 + n_bounces % 2], n_bounces, bits)

@@ -6,11 +6,12 @@
 #include "lib/math.glsl"
 
 layout(std430) readonly buffer Surfels { Surfel surfels[]; };
-layout(std430) buffer Cache { vec4 cache[]; };  // four parts, each with an entry for both sides of every surfel
+layout(std430) buffer Cache { vec4 cache[]; };  // five parts, each with an entry for both sides of every surfel
 
 const uint LAMPS = 0u;     // irradiance E from the lamps [W m^-2]
-const uint INDIRECT = 1u;  // irradiance E from all else
-const uint RADIANCE = 2u;  // outgoing radiance L [W m^-2 sr^-1], twice: read from one, written to the other
+const uint STILL = 1u;     // irradiance E from what no bounce changes: the sky
+const uint INDIRECT = 2u;  // irradiance E from all but the lamps: STILL and what other surfels send
+const uint RADIANCE = 3u;  // outgoing radiance L [W m^-2 sr^-1], twice: read from one, written to the other
 
 uniform uint u_n_sides;
 

@@ -1,51 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    one more bounce: each side of each surfel gathers what the others sent out before. Double-buffered, so that
-//             the order of invocations does not matter; the rays are the same in every sweep, so that sweeps converge.
-// Formula:    E = pi / N sum L(w_i), w_i distributed as cos; L' = Le + rho / pi (E_lamps + E)
-// In:         Surfels, Cache: RADIANCE of the sweep before and LAMPS; world, triangles
-// Out:        Cache: the other RADIANCE, INDIRECT; Change: largest change of any L (bits of a positive float)
+//             the order of invocations does not matter. Once a sweep has changed nothing, those after it end at once.
+// Formula:    E = E_still + pi / N sum L(w_i), w_i distributed as cos; L' = Le + rho / pi (E_lamps + E)
+// In:         Surfels, Links, Cache: RADIANCE of the sweep before, LAMPS and STILL; Changes of the sweeps before
+// Out:        Cache: the other RADIANCE, INDIRECT; Changes: largest change of any L (bits of a positive float)
 // Invocation: one side of one surfel
 
 #include "bind/cache.glsl"
-#include "bind/environment.glsl"
-#include "bind/trace.glsl"
 
 const int N_RAYS = 16;
 
 layout(local_size_x = 64) in;
 
-layout(std430) buffer Change { uint largest_change; };
+layout(std430) readonly buffer Links { uint links[]; };
+layout(std430) buffer Changes { uint changes[]; };  // of each sweep
 
 uniform uint u_first;
 uniform uint u_end;
-uniform uint u_from;  // 0 or 1: the radiance that is read; the other is written
+uniform uint u_sweep;
+uniform float u_tolerance;  // of the brightest change: a smaller one is none
 
-vec3 arriving(vec3 o, vec3 d, uint seed)
+bool has_settled()
 {
-    Hit hit;
-    if (!trace_closest(o, d, INFINITE, seed, hit))
-        return world_radiance(d, 0.0);
-    uvec4 corners = triangles[hit.triangle];
-    vec3 a = vertex_ws(hit.instance, corners.x);
-    vec3 n = cross(vertex_ws(hit.instance, corners.y) - a, vertex_ws(hit.instance, corners.z) - a);
-    uint side = cache_side(o + hit.t * d, n, d);
-    return side == NOTHING ? vec3(0.0) : cache[cache_entry(RADIANCE + u_from, side)].rgb;
+    float brightest = 0.0;
+    for (uint i = 0u; i < u_sweep; i++)
+        brightest = max(brightest, uintBitsToFloat(changes[i]));
+    return u_sweep > 0u && uintBitsToFloat(changes[u_sweep - 1u]) <= u_tolerance * brightest;
 }
 
 void main()
 {
-    uint side = u_first + gl_GlobalInvocationID.x;
-    if (side >= u_end)
+    uint side = u_first + gl_GlobalInvocationID.x, from = RADIANCE + u_sweep % 2u, to = RADIANCE + 1u - u_sweep % 2u;
+    if (side >= u_end || has_settled())
         return;
-    Surfel s = surfels[side / 2u];
-    vec3 n = unpack_unit(s.normal) * (side % 2u == 0u ? 1.0 : -1.0);
-    vec3 o = side_position(s, side, n), E = vec3(0.0);
-    mat3 frame = frame_of(n);
-    for (int k = 0; k < N_RAYS; k++)
-        E += PI / float(N_RAYS) * arriving(o, frame * cosine_direction(r2_point(uint(k), hash(side))), hash(side) + uint(k));
+    vec3 E = vec3(0.0);
+    for (uint k = 0u; k < uint(N_RAYS); k++) {
+        uint link = links[k * u_n_sides + side];
+        if (link != NOTHING)
+            E += PI / float(N_RAYS) * cache[cache_entry(from, link)].rgb;
+    }
+    E += cache[cache_entry(STILL, side)].rgb;
     cache[cache_entry(INDIRECT, side)] = vec4(E, 0.0);
+    Surfel s = surfels[side / 2u];
     vec3 L = s.emission + s.albedo / PI * (cache[cache_entry(LAMPS, side)].rgb + E);
-    vec3 change = abs(L - cache[cache_entry(RADIANCE + u_from, side)].rgb);
-    cache[cache_entry(RADIANCE + 1u - u_from, side)] = vec4(L, 0.0);
-    atomicMax(largest_change, floatBitsToUint(max(change.r, max(change.g, change.b))));
+    vec3 change = abs(L - cache[cache_entry(from, side)].rgb);
+    cache[cache_entry(to, side)] = vec4(L, 0.0);
+    atomicMax(changes[u_sweep], floatBitsToUint(max(change.r, max(change.g, change.b))));
 }

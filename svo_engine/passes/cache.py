@@ -19,28 +19,36 @@ from .voxelize import GEOMETRY, GRID, MATERIALS
 WORLD = ("u_world_radiance", "u_env_from_world", "u_has_env")
 CACHE = ("Octree", "Surfels", "Cache")
 CACHE_UNIFORMS = (*GRID, *TREE, "u_n_sides")
-PARTS = 4  # vec4 a side, see bind/cache.glsl
+PARTS = 5  # vec4 a side, see bind/cache.glsl
 
+LINK = Pass(("cache/link.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Links"), textures=("u_env", *TRACE),
+            uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD))
 DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Lights"), textures=TRACE,
               uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS))
-BOUNCE = Pass(("cache/bounce.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Change"), textures=("u_env", *TRACE),
-              uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, "u_from"))
+BOUNCE = Pass(("cache/bounce.comp.glsl",), (*CACHE, "Links", "Changes"),
+              uniforms=(*CACHE_UNIFORMS, "u_sweep", "u_tolerance"))
 
 TOLERANCE = 5e-3  # of the brightest radiance: bounces end when none changes more
+BATCH = 16  # sweeps between two looks at whether any more are needed: those that are not end at once
 
 
 @dataclass(frozen=True, eq=False)
 class LightCache:
-    """entries: the buffer of bind/cache.glsl. n_bounces: those that were done until nothing changed any more."""
+    """entries: the buffer of bind/cache.glsl. changes: largest change of radiance in each of max_bounces sweeps, f4."""
 
     scope: GpuScope
     octree: Octree
     entries: Any
-    n_bounces: int
+    changes: Any
+    max_bounces: int
 
     def resources(self) -> dict[str, Any]:
         """What a pass that includes bind/cache.glsl needs."""
         return _resources(self.octree, self.entries)
+
+    def n_bounces(self) -> int:
+        """Bounces that were done until nothing changed any more; waits for the device."""
+        return _n_done(self.changes, self.max_bounces)
 
 
 def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, n_rays: int, n_points: int,
@@ -48,19 +56,28 @@ def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, n
     """Light the surfels: lamps, then bounces until the change is below TOLERANCE or `max_bounces` were done."""
     scope, n_sides = device.scope(), 2 * octree.n_surfels
     entries = scope.buffer("light cache", 16 * PARTS * n_sides)
+    changes = scope.buffer("changes", 4 * max_bounces, clear=True)
     constants = {"HAS_ALPHA": gpu_scene.has_alpha, **bvh.constants()}
     lamps = {"N_LIGHTS": len(gpu_scene.scene.lights), "N_POINTS": n_points}
-    resources = {**gpu_scene.geometry, **gpu_scene.materials, **bvh.resources(), **_resources(octree, entries)}
-    device.dispatch(DIRECT, n_sides, {**constants, **lamps}, **resources, Lights=gpu_scene.lights)
-    change, brightest, largest, n_bounces = scope.buffer("change", 4), 0.0, 1.0, 0
-    while n_bounces < max_bounces and largest > TOLERANCE * brightest:
-        change.clear()
-        device.dispatch(BOUNCE, n_sides, {"N_RAYS": n_rays, **constants}, **resources, **gpu_scene.world(),
-                        Change=change, u_from=n_bounces % 2)
-        largest = float(np.frombuffer(change.read(4), "f4")[0])
-        brightest = max(brightest, largest)
-        n_bounces += 1
-    return LightCache(scope, octree, entries, n_bounces)
+    cache = _resources(octree, entries)
+    resources = {**gpu_scene.geometry, **gpu_scene.materials, **bvh.resources(), **cache}
+    with device.scope() as scratch:
+        links = scratch.buffer("cache links", 4 * n_rays * n_sides)
+        device.dispatch(LINK, n_sides, {"N_RAYS": n_rays, **constants}, **resources, **gpu_scene.world(), Links=links)
+        device.dispatch(DIRECT, n_sides, {**constants, **lamps}, **resources, Lights=gpu_scene.lights)
+        for sweep in range(max_bounces):
+            if sweep and sweep % BATCH == 0 and _n_done(changes, sweep) < sweep:
+                break
+            device.dispatch(BOUNCE, n_sides, {"N_RAYS": n_rays}, **cache, Links=links, Changes=changes, u_sweep=sweep,
+                            u_tolerance=TOLERANCE)
+    return LightCache(scope, octree, entries, changes, max_bounces)
+
+
+def _n_done(buffer: Any, n: int) -> int:
+    """Of n sweeps those that were done, as bounce.comp.glsl ends them: until one changed little, or all."""
+    changes = np.frombuffer(buffer.read(4 * n) if n else b"", "f4")
+    is_small = changes <= np.float32(TOLERANCE) * np.maximum.accumulate(changes)
+    return int(np.argmax(is_small)) + 1 if is_small.any() else n
 
 
 def _resources(octree: Octree, entries: Any) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..scene import layouts
-from .cache import WORLD
+from .cache import WORLD, LightCache
 from .gather import CAMERA, PLANES, Incident
 from .raster import GBuffer
 from .upload import GpuScene
@@ -28,6 +28,7 @@ class GpuFilm:
     gbuffer  of the latest sample
     is_last  whether the frame ends with this one
     limits   a sentence for each setting that the device was too small for
+    cache    the light that its rays found, if there were rays
     """
 
     scope: GpuScope
@@ -37,6 +38,7 @@ class GpuFilm:
     is_last: bool = False
     gbuffer: GBuffer | None = None
     limits: list[str] = field(default_factory=list)
+    cache: LightCache | None = None
 
 
 def make_film(device: Device, size: tuple[int, int]) -> GpuFilm:
