@@ -6,7 +6,7 @@
 // Invocation: one side of one surfel
 
 #include "bind/cache.glsl"
-#include "bind/lamps.glsl"
+#include "bind/lights.glsl"
 
 const int N_POINTS = 4;
 

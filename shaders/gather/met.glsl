@@ -2,7 +2,7 @@
 // Purpose: a surface met by a ray, and the light that leaves it.
 
 #include "bind/cache.glsl"
-#include "bind/lamps.glsl"
+#include "bind/lights.glsl"
 #include "bind/surface.glsl"
 
 const bool HAS_TEXTURES = false;
@@ -25,13 +25,18 @@ Met met_at(Hit hit, vec3 d)
     return met;
 }
 
-// Light that leaves a met surface against a diffuse ray: lamps exactly, all else from the cache. A metal counts as white
-// as its colour: what it mirrors is taken as its share of what arrives from everywhere.
-vec3 leaving(Met met, uint seed)
+// Light that a met surface reflects diffusely against a ray: lamps exactly, all else from the cache. A metal counts as
+// white as its colour: what it mirrors is taken as its share of what arrives from everywhere.
+vec3 reflected(Met met, uint seed)
 {
     vec3 E = lamps_irradiance(met.surface, u_sample, seed);
     if (met.side != NOTHING)
         E += cache[cache_entry(INDIRECT, met.side)].rgb;
-    vec3 rho = met.shading.base_color * (1.0 - materials[met.surface.material].transmission);
-    return met.shading.emission + rho / PI * E;
+    return met.shading.base_color * (1.0 - materials[met.surface.material].transmission) / PI * E;
+}
+
+// All light that leaves a met surface against a diffuse ray.
+vec3 leaving(Met met, uint seed)
+{
+    return met.shading.emission + reflected(met, seed);
 }

@@ -18,8 +18,8 @@ vec3 specular_lamps(Surface s, vec3 wo, vec3 f0, float alpha, uint seed)
 {
     vec3 L = vec3(0.0);
     float NoV = dot(s.normal, wo);
-    for (int i = 0; i < N_LIGHTS; i++) {
-        LightSample light = visible_light(i, s, r2_point(u_sample, seed + uint(i)), hash(seed + u_sample));
+    for (int k = 0; k < n_draws(); k++) {
+        LightDraw light = draw_light(k, s, u_sample, seed);
         float NoL = dot(s.normal, light.wi);
         if (NoL > 0.0 && light.E_perp != vec3(0.0)) {
             vec3 h = normalize(light.wi + wo);
