@@ -10,7 +10,7 @@ import glcontext
 import moderngl
 
 from ..errors import GpuError
-from .cube import Calls, load_calls
+from .calls import Calls, load_calls
 
 REQUIRED = 430
 _HELP = {

@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 
 from ..errors import GpuError
+from .calls import clear_buffer, clear_texture
 from .cube import Cube
 from .texels import TEXEL, Texels
 
@@ -50,11 +51,11 @@ class GpuScope:
                            "(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)")
         ctx = self.device.ctx
         if isinstance(data, np.ndarray) and n_bytes:
-            made = self._make(label, n_bytes, lambda: ctx.buffer(np.ascontiguousarray(data).tobytes()))
+            made = self._make(label, n_bytes, lambda: ctx.buffer(np.ascontiguousarray(data).view("u1")))
         else:  # a storage block without a byte cannot be bound
             made = self._make(label, n_bytes, lambda: ctx.buffer(reserve=max(n_bytes, 16)))
         if clear:
-            made.clear()
+            clear_buffer(self.device.calls, made.glo)
         return made
 
     def texture(self, label: str, size: tuple[int, int], components: int, dtype: str,
@@ -72,9 +73,10 @@ class GpuScope:
         """n pictures of `size` pixels RGBA f4, zeros, to be sampled without a filter or bound as one image."""
         self._check_size(label, size)
         n_bytes = size[0] * size[1] * n * 16
-        made = self._make(label, n_bytes,
-                          lambda: self.device.ctx.texture_array((*size, n), 4, bytes(n_bytes), dtype="f4"))
+        made = self._make(label, n_bytes, lambda: self.device.ctx.texture_array((*size, n), 4, dtype="f4"))
         made.filter = moderngl.NEAREST, moderngl.NEAREST
+        if not clear_texture(self.device.calls, made.glo):
+            made.write(bytes(n_bytes))
         return made
 
     def cube(self, label: str, n: int) -> Cube:

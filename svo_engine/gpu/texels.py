@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A storage buffer that shaders read as texels, by the OpenGL calls that moderngl lacks.
+"""A storage buffer that shaders read as texels.
 
 Reads of random places are twice as fast through a texture unit as from a storage block on Mesa's software renderer, and
 a tenth faster on an H100.
@@ -10,7 +10,7 @@ from __future__ import annotations
 import ctypes
 from typing import Any
 
-from .cube import Calls
+from .calls import Calls
 
 _TEXTURE_BUFFER, _TEXTURE0, _RGBA32UI = 0x8C2A, 0x84C0, 0x8D70
 
