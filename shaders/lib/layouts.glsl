@@ -80,6 +80,20 @@ struct Light {
     uint soft_falloff;
 };
 
+struct LightNode {
+    vec3 low;
+    float intensity;
+    vec3 high;
+    uint light;
+};
+
+struct Emitter {
+    uint work;
+    uint instance;
+    uint triangle;
+    uint leaf;
+};
+
 struct Voxel {
     vec3 emission;
     uint voxel;

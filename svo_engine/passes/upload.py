@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -75,7 +76,7 @@ def upload(device: Device, scene: Scene) -> GpuScene:
         "Texels": scope.buffer("texels", texels)}
     return GpuScene(
         scope, scene, centre, float((high - low).max()), draws, n_work, geometry, materials,
-        scope.buffer("lights", _lights(scene.lights, centre)), _environment(scope, scene),
+        scope.buffer("lights", light_rows(scene.lights, centre)), _environment(scope, scene),
         has_textures=any(_texture_slots(m) for m in scene.materials),
         has_alpha=any(m.alpha < 1 or m.alpha_texture >= 0 for m in scene.materials),
         has_specular=any(m.metallic > 0 or m.metallic_texture >= 0 or m.specular_level > 0 for m in scene.materials),
@@ -187,7 +188,8 @@ def _textures(textures: tuple[Texture, ...], images: tuple[Image, ...], firsts: 
     return rows
 
 
-def _lights(lights: tuple[Light, ...], centre: np.ndarray) -> np.ndarray:
+def light_rows(lights: Sequence[Light], centre: np.ndarray) -> np.ndarray:
+    """Lamps in layout LIGHT, positions relative to `centre`, (3,) f8, metres."""
     rows = np.zeros(len(lights), layouts.dtype(layouts.LIGHT))
     for row, light in zip(rows, lights, strict=True):
         m = light.world_from_light
@@ -210,13 +212,18 @@ def _environment(scope: GpuScope, scene: Scene) -> Any:
     """The world's image with mip levels; one black texel without."""
     if scene.world.image < 0:
         return scope.texture("no environment", (1, 1), 4, "f4", np.zeros(4, "f4"))
-    image = scene.images[scene.world.image]
-    pixels = image.pixels.astype("f4") / 255 if image.pixels.dtype == np.uint8 else image.pixels
-    if image.is_srgb:
-        rgb = pixels[..., :3]
-        linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-        pixels = np.concatenate([linear, pixels[..., 3:]], 2).astype("f4")
+    pixels = linear_pixels(scene.images[scene.world.image])
     made = scope.texture("environment", (pixels.shape[1], pixels.shape[0]), 4, "f4", pixels)
     made.repeat_x = True
     made.build_mipmaps()
     return made
+
+
+def linear_pixels(image: Image) -> np.ndarray:
+    """(height, width, 4) f4, scene-linear."""
+    pixels = image.pixels.astype("f4") / 255 if image.pixels.dtype == np.uint8 else image.pixels
+    if not image.is_srgb:
+        return pixels
+    rgb = pixels[..., :3]
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return np.concatenate([linear, pixels[..., 3:]], 2).astype("f4")

@@ -40,6 +40,12 @@ LIGHT: Fields = (("position", "vec3"), ("kind", "uint"), ("emitted", "vec3"), ("
                  ("axis_z", "vec3"), ("spot_cos", "float"), ("size", "vec2"), ("spot_blend", "float"),
                  ("soft_falloff", "uint"))
 
+# A node of a light tree: the box around its lights and their intensity [W sr^-1]; in a leaf, the light's index
+LIGHT_NODE: Fields = (("low", "vec3"), ("intensity", "float"), ("high", "vec3"), ("light", "uint"))
+
+# An emissive triangle: its number when the triangles of all instances are counted, and its leaf in the light tree
+EMITTER: Fields = (("work", "uint"), ("instance", "uint"), ("triangle", "uint"), ("leaf", "uint"))
+
 # One occupied voxel, whole surfaces averaged by area. voxel: 10 bits an axis. normal: octahedral, NO_NORMAL where
 # the surfaces cancel. albedo_coverage: RGBA8
 VOXEL: Fields = (("emission", "vec3"), ("voxel", "uint"), ("albedo_coverage", "uint"), ("normal", "uint"))
@@ -64,9 +70,9 @@ BVH_INSTANCE: Fields = (("inv_x", "vec4"), ("inv_y", "vec4"), ("inv_z", "vec4"),
 # What a tree is built from: box, reference, and tree << BVH_HEIGHT_BITS | height
 CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("tree_height", "uint"))
 
-STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Light": LIGHT, "Voxel": VOXEL,
-           "Surfel": SURFEL, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE,
-           "Cluster": CLUSTER}
+STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Light": LIGHT, "LightNode": LIGHT_NODE,
+           "Emitter": EMITTER, "Voxel": VOXEL, "Surfel": SURFEL, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE,
+           "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
 
 # Sums over the samples of a picture, one layer each. COMBINED: premultiplied RGBA. DIFFUSE_*: rho / pi E, and in alpha
 # the square of E's luminance. DIFFUSE_COLOR: rho. NORMAL_DEPTH: unit normal of the first hit, distance from the eye

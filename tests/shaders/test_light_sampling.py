@@ -18,7 +18,7 @@ MIDPOINTS = np.stack(np.meshgrid(*[(np.arange(SIDE) + 0.5) / SIDE] * 2), -1).res
 
 def sampled(device, light, p=(0, 0, 0), u=MIDPOINTS):
     """wi (n, 3), distance (n,), E_perp (n,) of the red channel; p: one point, or one a row of u."""
-    rows = np.repeat(upload._lights((light,), np.zeros(3)), len(u))
+    rows = np.repeat(upload.light_rows((light,), np.zeros(3)), len(u))
     points = np.broadcast_to(np.array(p, "f4"), (len(u), 3))
 
     def of(kind, field):

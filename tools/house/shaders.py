@@ -17,7 +17,7 @@ LABELS = ("Purpose:", "In:", "Out:", "Invocation:")
 INCLUDED_FOLDERS = {"lib", "bind"}
 
 # Modules of passes/ that are no stage but help several
-HELPERS = {"pixel_filter", "upload"}
+HELPERS = {"lights", "pixel_filter", "upload"}
 
 
 def breaches(root: Path) -> list[str]:

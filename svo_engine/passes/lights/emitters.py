@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The triangles that send out light, as lights that can be drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...scene.types import Material, Mesh, Scene
+from ..upload import GpuScene, linear_pixels
+
+MOST = 1 << 17  # triangles; what goes beyond is large enough to be found by rays alone
+
+
+@dataclass(frozen=True, eq=False)
+class Emitters:
+    """n emissive triangles, in the order of `work`: their number when the triangles of all instances are counted.
+
+    instance, triangle  (n,) u4, in the device's order
+    low, high           (n, 3) f8, metres, relative to the scene's centre: their boxes
+    intensity           (n,) f8, [W sr^-1], about what they send out along their normal
+    """
+
+    work: np.ndarray
+    instance: np.ndarray
+    triangle: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    intensity: np.ndarray
+
+
+def emitters_of(gpu_scene: GpuScene) -> Emitters:
+    """The emissive triangles of as many instances as MOST allows, those with the fewest triangles first."""
+    scene, inst = gpu_scene.scene, gpu_scene.scene.instances
+    radiance = np.array([_mean_radiance(scene, material) for material in scene.materials] or [0.0])
+    order = np.argsort(inst.mesh, kind="stable")
+    first_triangle = np.cumsum([0] + [len(mesh.triangles) for mesh in scene.meshes])
+    first_work = np.cumsum([0] + [len(scene.meshes[m].triangles) for m in inst.mesh[order]])
+    glowing = [(number, i) for number, i in enumerate(order) if radiance[_slots(scene, i)].any()]
+    found = {number: _radiances(scene, i, radiance) for number, i in _smallest(scene, glowing)}
+    parts = []
+    for number, sent in sorted(found.items()):
+        i = order[number]
+        mesh, m, own = scene.meshes[inst.mesh[i]], inst.world_from_object[i], np.flatnonzero(sent)
+        corners = _corners(mesh, m, own) - gpu_scene.centre_ws
+        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+        columns = (first_work[number] + own, np.full(len(own), number), first_triangle[inst.mesh[i]] + own,
+                   corners.min(1), corners.max(1), sent[own] * area)
+        parts.append([column[area > 0] for column in columns])
+    empty = [np.zeros(0, "u4")] * 3 + [np.zeros((0, 3))] * 2 + [np.zeros(0)]
+    return Emitters(*(np.concatenate(column) for column in zip(empty, *parts, strict=True)))
+
+
+def _mean_radiance(scene: Scene, material: Material) -> float:
+    """Mean over the colours and, if it has one, over the emission's image."""
+    color = np.array(material.emission, "f8")
+    if material.emission_texture >= 0:
+        color *= linear_pixels(scene.images[scene.textures[material.emission_texture].image])[..., :3].mean((0, 1))
+    return max(float(color.mean()) * material.alpha, 0.0)
+
+
+def _slots(scene: Scene, i: int) -> np.ndarray:
+    """Materials of instance i, one a slot."""
+    inst = scene.instances
+    return inst.slot_materials[inst.first_slot[i]:inst.first_slot[i + 1]]
+
+
+def _smallest(scene: Scene, instances: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """As many of the instances, (number on the device, index), as have MOST triangles together."""
+    sizes = np.array([len(scene.meshes[scene.instances.mesh[i]].triangles) for _, i in instances], "i8")
+    order = np.argsort(sizes, kind="stable")
+    return [instances[k] for k in order[np.cumsum(sizes[order]) <= MOST]]
+
+
+def _radiances(scene: Scene, i: int, radiance: np.ndarray) -> np.ndarray:
+    """What each triangle of instance i sends out; the last slot stands for those that do not exist."""
+    slots = _slots(scene, i)
+    mesh = scene.meshes[scene.instances.mesh[i]]
+    return radiance[slots[np.minimum(mesh.material_slots, len(slots) - 1)]]
+
+
+def _corners(mesh: Mesh, world_from_object: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(n, 3, 3) f8, metres, world space."""
+    positions = mesh.positions[mesh.triangles[triangles]].astype("f8")
+    return positions @ world_from_object[:3, :3].T + world_from_object[:3, 3]
