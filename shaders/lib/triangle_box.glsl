@@ -87,47 +87,67 @@ bool touches_cell(VoxelTriangle t, ivec3 cell)
         && overlaps_square(t.a.zx, t.b.zx, t.c.zx, sign(t.n.y), vec2(cell.zx));
 }
 
-const int MAX_CORNERS = 9;  // a triangle cut by six planes
-
-// Keep the part of a polygon where dot(p, axis) * side <= limit [Sutherland74].
-void clip_polygon(inout vec3 polygon[MAX_CORNERS], inout int n, int axis, float side, float limit)
+// Integrals of Y, x Y and Y^2 / 2 over x along a straight line between two points, Y the height y.
+vec3 under_line(vec2 p, vec2 q)
 {
-    vec3 kept[MAX_CORNERS];
-    int n_kept = 0;
-    for (int i = 0; i < n; i++) {
-        vec3 p = polygon[i], q = polygon[i + 1 < n ? i + 1 : 0];
-        float dp = side * p[axis] - limit, dq = side * q[axis] - limit;
-        if (dp <= 0.0 && n_kept < MAX_CORNERS)
-            kept[n_kept++] = p;
-        if ((dp < 0.0 && dq > 0.0 || dp > 0.0 && dq < 0.0) && n_kept < MAX_CORNERS)
-            kept[n_kept++] = mix(p, q, dp / (dp - dq));
-    }
-    polygon = kept;
-    n = n_kept;
+    float sum = p.y + q.y;
+    return (q.x - p.x) / 6.0 * vec3(3.0 * sum, p.x * (p.y + sum) + q.x * (q.y + sum), sum * sum - p.y * q.y);
 }
 
-// Area and centroid of the triangle's part inside the cell: xyz centroid, w area. The triangle's own when nothing is left.
+float inverse_of(float d)
+{
+    return 1.0 / (abs(d) < 1e-20 ? 1e-20 : d);
+}
+
+// The same along a segment, x only from 0 to 1 and Y = clamp(y, 0, 1). By Green's theorem the sum over the outline of a
+// polygon is the area of its part in the unit square, and that part's first moments, without any corner of the part.
+vec3 under_segment(vec2 p, vec2 q)
+{
+    vec2 d = q - p, inverse = vec2(inverse_of(d.x), inverse_of(d.y));
+    vec2 zero = -p * inverse, one = (1.0 - p) * inverse;         // where x and y are 0 and 1
+    vec2 first = min(zero, one), last = max(zero, one);
+    float start = clamp(first.x, 0.0, 1.0), end = clamp(last.x, 0.0, 1.0);
+    vec4 at = vec4(start, clamp(vec2(first.y, last.y), start, end), end);  // between these Y is straight
+    vec4 x = clamp(p.x + at * d.x, 0.0, 1.0), y = clamp(p.y + at * d.y, 0.0, 1.0);
+    return under_line(vec2(x.x, y.x), vec2(x.y, y.y)) + under_line(vec2(x.y, y.y), vec2(x.z, y.z))
+         + under_line(vec2(x.z, y.z), vec2(x.w, y.w));
+}
+
+// The same along the part of an edge with z from 0 to 1. floor_cut, ceiling_cut: where the outline leaves that slab
+// through z = 0 and z = 1 (xy), and where it comes back (zw).
+vec3 under_edge(vec3 p, vec3 q, inout vec4 floor_cut, inout vec4 ceiling_cut)
+{
+    vec2 at = clamp((vec2(0.0, 1.0) - p.z) * inverse_of(q.z - p.z), 0.0, 1.0);
+    vec2 low = mix(p.xy, q.xy, at.x), high = mix(p.xy, q.xy, at.y);
+    if ((p.z < 0.0) != (q.z < 0.0))
+        floor_cut = p.z < 0.0 ? vec4(floor_cut.xy, low) : vec4(low, floor_cut.zw);
+    if ((p.z > 1.0) != (q.z > 1.0))
+        ceiling_cut = p.z > 1.0 ? vec4(ceiling_cut.xy, high) : vec4(high, ceiling_cut.zw);
+    return under_segment(p.z < 0.0 ? low : p.z > 1.0 ? high : p.xy, q.z < 0.0 ? low : q.z > 1.0 ? high : q.xy);
+}
+
+// Area and centroid of the triangle's part inside the cell: xyz centroid, w area.
 vec4 clipped_part(VoxelTriangle t, ivec3 cell)
 {
-    vec3 low = vec3(cell), high = low + 1.0;
-    vec3 lowest = min(min(t.a, t.b), t.c), highest = max(max(t.a, t.b), t.c);
-    vec3 polygon[MAX_CORNERS];
-    polygon[0] = t.a, polygon[1] = t.b, polygon[2] = t.c;
-    int n = 3;
-    for (int axis = 0; axis < 3; axis++) {
-        if (lowest[axis] < low[axis])
-            clip_polygon(polygon, n, axis, -1.0, -low[axis]);
-        if (highest[axis] > high[axis])
-            clip_polygon(polygon, n, axis, 1.0, high[axis]);
+    vec3 low = vec3(cell), a = t.a - low, b = t.b - low, c = t.c - low;
+    vec3 lowest = min(min(a, b), c), highest = max(max(a, b), c), middle = (a + b + c) / 3.0;
+    float size = 0.5 * abs(t.n.z), area = size;
+    if (any(lessThan(lowest, vec3(0.0))) || any(greaterThan(highest, vec3(1.0)))) {
+        vec4 floor_cut = vec4(0.0), ceiling_cut = vec4(0.0);
+        vec3 sum = under_edge(a, b, floor_cut, ceiling_cut) + under_edge(b, c, floor_cut, ceiling_cut)
+                 + under_edge(c, a, floor_cut, ceiling_cut);
+        if (lowest.z < 0.0)
+            sum += under_segment(floor_cut.xy, floor_cut.zw);
+        if (highest.z > 1.0)
+            sum += under_segment(ceiling_cut.xy, ceiling_cut.zw);
+        sum *= -sign(t.n.z);
+        area = clamp(sum.x, 0.0, min(size, 1.0));
+        if (area > 1e-6)
+            middle.xy = sum.yz / sum.x;
+        middle.xy = clamp(middle.xy, lowest.xy, highest.xy);
+        middle.z = a.z - dot(t.n.xy, middle.xy - a.xy) / t.n.z;
     }
-    float area = 0.0;
-    vec3 moment = vec3(0.0), normal = unit_normal(t);
-    for (int i = 1; i + 1 < n; i++) {
-        float part = 0.5 * abs(dot(cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]), normal));
-        area += part;
-        moment += part * (polygon[0] + polygon[i] + polygon[i + 1]) / 3.0;
-    }
-    return area > 1e-12 ? vec4(moment / area, area) : vec4(clamp((t.a + t.b + t.c) / 3.0, low, high), 0.0);
+    return vec4(low + clamp(middle, 0.0, 1.0), area / abs(unit_normal(t).z));
 }
 
 // Barycentrics (of b and c) of a point in the triangle's plane, clamped to the triangle.

@@ -4,7 +4,7 @@
 // In:         triangles, materials, octree
 // Out:        Sums: per surfel area, albedo, normal, centroid in the voxel, voxel and axis, how far out the outermost planes
 //             lie that face front and back, emission: SUMS words
-// Invocation: one tile of 8x8 columns of one triangle
+// Invocation: one strip of columns of one triangle
 
 #include "bind/visit_voxels.glsl"
 #include "bind/octree.glsl"
@@ -24,19 +24,19 @@ void add(uint at, float value)
     atomicAdd(sums[at], uint(int(round(value * ONE))));  // negative numbers wrap round, as two's complement wants it
 }
 
-void visit(Tile tile, ivec3 cell)
+void visit(Strip strip, ivec3 cell)
 {
-    int axis = tile.shape.axis;
+    int axis = strip.shape.axis;
     ivec3 voxel = turned_back(cell, axis);
     uint at = find_surfel(voxel, axis) * uint(SUMS);
-    vec4 part = clipped_part(tile.shape, cell);
+    vec4 part = clipped_part(strip.shape, cell);
     float area = max(part.w, 1.0 / ONE);
-    vec2 uv = HAS_TEXTURES ? uv_at(tile.triangle, barycentrics(tile.shape, part.xyz)) : vec2(0.0);
-    uint material = material_of(tile.instance, tile.triangle);
+    vec2 uv = HAS_TEXTURES ? uv_at(strip.triangle, barycentrics(strip.shape, part.xyz)) : vec2(0.0);
+    uint material = material_of(strip.instance, strip.triangle);
     Shading s = shading_at(material, uv, HAS_TEXTURES);
     vec3 albedo = clamp(s.base_color * (1.0 - materials[material].transmission), 0.0, 1.0);
-    vec3 inside = turned_back(part.xyz - vec3(cell), axis), n = unit_normal(tile.shape);
-    bool is_front = n.z * handedness(instances[tile.instance]) > 0.0;
+    vec3 inside = turned_back(part.xyz - vec3(cell), axis), n = unit_normal(strip.shape);
+    bool is_front = n.z * handedness(instances[strip.instance]) > 0.0;
     n = turned_back(n.z < 0.0 ? -n : n, axis);
     add(at, area);
     for (int i = 0; i < 3; i++) {

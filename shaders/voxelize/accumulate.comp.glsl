@@ -4,7 +4,7 @@
 // Formula:    sum_i A_i x_i in fixed point: integer addition knows no order, so the sums are the same in every run
 // In:         triangles, materials, Occupancy, VoxelFirst (number of a word's first voxel)
 // Out:        Sums: per voxel area, albedo, normal, covered area, emission, SUMS words in this order
-// Invocation: one tile of 8x8 columns of one triangle
+// Invocation: one strip of columns of one triangle
 
 #include "bind/visit_voxels.glsl"
 #include "bind/voxels.glsl"
@@ -25,19 +25,19 @@ void add(uint at, float value)
     atomicAdd(sums[at], uint(int(round(value * ONE))));  // negative numbers wrap round, as two's complement wants it
 }
 
-void visit(Tile tile, ivec3 cell)
+void visit(Strip strip, ivec3 cell)
 {
-    uvec2 address = occupancy_address(turned_back(cell, tile.shape.axis));
+    uvec2 address = occupancy_address(turned_back(cell, strip.shape.axis));
     uint below = occupancy[address.x] & ((1u << address.y) - 1u);
     uint at = (voxel_first[address.x] + uint(bitCount(below))) * uint(SUMS);
-    vec4 part = clipped_part(tile.shape, cell);
+    vec4 part = clipped_part(strip.shape, cell);
     float area = max(part.w, 1.0 / ONE);
-    vec2 uv = HAS_TEXTURES ? uv_at(tile.triangle, barycentrics(tile.shape, part.xyz)) : vec2(0.0);
-    uint material = material_of(tile.instance, tile.triangle);
+    vec2 uv = HAS_TEXTURES ? uv_at(strip.triangle, barycentrics(strip.shape, part.xyz)) : vec2(0.0);
+    uint material = material_of(strip.instance, strip.triangle);
     Shading s = shading_at(material, uv, HAS_TEXTURES);
-    vec3 n = unit_normal(tile.shape);
+    vec3 n = unit_normal(strip.shape);
     float facing = abs(n.z);
-    n = turned_back(n, tile.shape.axis);
+    n = turned_back(n, strip.shape.axis);
     vec3 albedo = clamp(s.base_color * (1.0 - materials[material].transmission), 0.0, 1.0);
     add(at, area);
     for (int i = 0; i < 3; i++) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose:    how many tiles of columns each triangle's voxelization takes (bind/voxel_work.glsl).
+// Purpose:    how many strips of columns each triangle's voxelization takes (bind/voxel_work.glsl).
 // In:         triangles of all instances
-// Out:        TileFirst: the count, which voxelize/scan turns into the first tile
+// Out:        StripFirst: the count, which voxelize/scan turns into the first strip
 // Invocation: one triangle of one instance
 
 #include "bind/voxel_work.glsl"
@@ -16,6 +16,6 @@ void main()
     uint work = u_first + gl_GlobalInvocationID.x, instance, triangle;
     if (work >= u_end)
         return;
-    ivec2 tiles = tiles_of(shape_of_work(work, instance, triangle));
-    tile_first[work] = uint(tiles.x * tiles.y);
+    int columns = columns_of(shape_of_work(work, instance, triangle));
+    strip_first[work] = uint((columns + COLUMNS - 1) / COLUMNS);
 }

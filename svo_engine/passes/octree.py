@@ -15,11 +15,11 @@ from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..scene import layouts
 from .upload import GpuScene
-from .voxelize import GEOMETRY, GRID, MATERIALS, WORK, Grid, cut_tiles, make_grid, mark, number_bits
+from .voxelize import GEOMETRY, GRID, MATERIALS, WORK, Grid, cut_strips, make_grid, mark, number_bits
 
 TREE = ("u_n_top_words", "u_n_node_words")
-MARK = Pass(("octree/mark.comp.glsl",), (*GEOMETRY, "TileFirst", "Octree"), uniforms=(*WORK, *TREE))
-ACCUMULATE = Pass(("octree/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS, "TileFirst", "Octree", "Sums"),
+MARK = Pass(("octree/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Octree"), uniforms=(*WORK, *TREE))
+ACCUMULATE = Pass(("octree/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS, "StripFirst", "Octree", "Sums"),
                   uniforms=(*WORK, *TREE, "u_emission_unit"))
 AVERAGE = Pass(("octree/average.comp.glsl",), ("Sums", "Surfels"), uniforms=(*GRID, "u_emission_unit"))
 
@@ -57,15 +57,15 @@ def build_octree(device: Device, gpu_scene: GpuScene, n: int) -> Octree:
     with device.scope() as scratch:
         words, n_nodes = _top(device, scope, scratch, gpu_scene, grid)
     with device.scope() as scratch:
-        work, n_tiles = cut_tiles(device, scratch, gpu_scene, grid)
+        work, n_strips = cut_strips(device, scratch, gpu_scene, grid)
         tree = {"Octree": words, **tree_sizes(n, n_nodes)}
-        device.dispatch(MARK, n_tiles, **work, **tree)
+        device.dispatch(MARK, n_strips, **work, **tree)
         n_node = NODE_WORDS * n_nodes
         masks = scratch.buffer("node masks", 4 * n_node)
         device.ctx.copy_buffer(masks, words, 4 * n_node, read_offset=8 * n_top)
         first, n_surfels = number_bits(device, scratch, masks, n_node)
         device.ctx.copy_buffer(words, first, 4 * n_node, write_offset=8 * n_top + 4 * n_node)
-        surfels = _surfels(device, scope, scratch, gpu_scene, {**work, **tree}, n_tiles, n_surfels, grid)
+        surfels = _surfels(device, scope, scratch, gpu_scene, {**work, **tree}, n_strips, n_surfels, grid)
     return Octree(scope, grid, words, surfels, n_nodes, n_surfels)
 
 
@@ -73,8 +73,8 @@ def _top(device: Device, scope: GpuScope, scratch: GpuScope, gpu_scene: GpuScene
     """The octree's words with the top half filled and zeros in the rest, and the number of nodes."""
     nodes = Grid(grid.n // NODE, grid.low, grid.voxel_size * NODE)
     n_top = nodes.n**3 // 32
-    work, n_tiles = cut_tiles(device, scratch, gpu_scene, nodes)
-    masks = mark(device, scratch, work, n_tiles, nodes)
+    work, n_strips = cut_strips(device, scratch, gpu_scene, nodes)
+    masks = mark(device, scratch, work, n_strips, nodes)
     first, n_nodes = number_bits(device, scratch, masks, n_top)
     words = scope.buffer("octree", 4 * (2 * n_top + 2 * NODE_WORDS * n_nodes), clear=True)
     device.ctx.copy_buffer(words, masks, 4 * n_top)
@@ -83,13 +83,13 @@ def _top(device: Device, scope: GpuScope, scratch: GpuScope, gpu_scene: GpuScene
 
 
 def _surfels(device: Device, scope: GpuScope, scratch: GpuScope, gpu_scene: GpuScene, work: dict[str, Any],
-             n_tiles: int, n_surfels: int, grid: Grid) -> Any:
+             n_strips: int, n_surfels: int, grid: Grid) -> Any:
     """The buffer of surfels."""
     has_emission = gpu_scene.emission_unit > 0
     constants = {"HAS_EMISSION": has_emission, "SUMS": 16 if has_emission else 13}
     sums = scratch.buffer("surfel sums", 4 * constants["SUMS"] * n_surfels, clear=True)
     unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
-    device.dispatch(ACCUMULATE, n_tiles, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
+    device.dispatch(ACCUMULATE, n_strips, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
                     **work, **gpu_scene.materials, **unit)
     surfels = scope.buffer("surfels", layouts.dtype(layouts.SURFEL).itemsize * n_surfels)
     device.dispatch(AVERAGE, n_surfels, constants, Surfels=surfels, **grid.uniforms(), **unit)

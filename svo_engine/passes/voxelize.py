@@ -23,11 +23,11 @@ MATERIALS = ("Materials", "Textures", "Texels")
 GRID = ("u_grid_n", "u_grid_low", "u_voxels_per_metre")
 WORK = (*GRID, "u_n_instances", "u_n_work")
 
-COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "TileFirst"), uniforms=WORK)
-MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "TileFirst", "Occupancy"), uniforms=WORK)
+COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "StripFirst"), uniforms=WORK)
+MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Occupancy"), uniforms=WORK)
 COUNT_BITS = Pass(("voxelize/count_bits.comp.glsl",), ("Bits", "BitFirst"))
 ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
-                  (*GEOMETRY, *MATERIALS, "TileFirst", "Occupancy", "VoxelFirst", "Sums"),
+                  (*GEOMETRY, *MATERIALS, "StripFirst", "Occupancy", "VoxelFirst", "Sums"),
                   uniforms=(*WORK, "u_emission_unit"))
 AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Occupancy", "VoxelFirst", "Sums", "Voxels"),
                uniforms=(*GRID, "u_emission_unit"))
@@ -77,8 +77,8 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
         occupancy = scope.buffer("occupancy", n**3 // 8, clear=True)
         return Voxels(scope, grid, occupancy, scope.buffer("voxels", 0), 0)
     with device.scope() as scratch:
-        work, n_tiles = cut_tiles(device, scratch, gpu_scene, grid)
-        occupancy = mark(device, scope, work, n_tiles, grid)
+        work, n_strips = cut_strips(device, scratch, gpu_scene, grid)
+        occupancy = mark(device, scope, work, n_strips, grid)
         bits: dict[str, Any] = {"Occupancy": occupancy}
         bits["VoxelFirst"], n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
 
@@ -86,25 +86,25 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
         constants = {"HAS_EMISSION": has_emission, "SUMS": 11 if has_emission else 8}
         sums = scratch.buffer("voxel sums", 4 * constants["SUMS"] * n_voxels, clear=True)
         unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
-        device.dispatch(ACCUMULATE, n_tiles, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
+        device.dispatch(ACCUMULATE, n_strips, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
                         **work, **gpu_scene.materials, **bits, **unit)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
         device.dispatch(AVERAGE, n**3 // 32, constants, Voxels=voxels, **grid.uniforms(), **bits, **unit)
     return Voxels(scope, grid, occupancy, voxels, n_voxels)
 
 
-def cut_tiles(device: Device, scratch: GpuScope, gpu_scene: GpuScene, grid: Grid) -> tuple[dict[str, Any], int]:
-    """The resources of bind/voxel_work.glsl and the number of tiles: voxelization's work, cut evenly."""
+def cut_strips(device: Device, scratch: GpuScope, gpu_scene: GpuScene, grid: Grid) -> tuple[dict[str, Any], int]:
+    """The resources of bind/voxel_work.glsl and the number of strips: voxelization's work, cut evenly."""
     work = {**gpu_scene.geometry, **grid.uniforms(), "u_n_instances": gpu_scene.n_instances,
-            "u_n_work": gpu_scene.n_work, "TileFirst": scratch.buffer("tiles", 4 * gpu_scene.n_work)}
+            "u_n_work": gpu_scene.n_work, "StripFirst": scratch.buffer("strips", 4 * gpu_scene.n_work)}
     device.dispatch(COUNT, gpu_scene.n_work, **work)
-    return work, scan(device, scratch, work["TileFirst"], gpu_scene.n_work)
+    return work, scan(device, scratch, work["StripFirst"], gpu_scene.n_work)
 
 
-def mark(device: Device, scope: GpuScope, work: dict[str, Any], n_tiles: int, grid: Grid) -> Any:
+def mark(device: Device, scope: GpuScope, work: dict[str, Any], n_strips: int, grid: Grid) -> Any:
     """A buffer in `scope` with a bit for each voxel of `grid`, set where a surface touches it."""
     occupancy = scope.buffer("occupancy", grid.n**3 // 8, clear=True)
-    device.dispatch(MARK, n_tiles, Occupancy=occupancy, **work)
+    device.dispatch(MARK, n_strips, Occupancy=occupancy, **work)
     return occupancy
 
 

@@ -31,8 +31,8 @@ def touched(triangle: np.ndarray, n: int, slack: float) -> np.ndarray:
     return cells[meets]
 
 
-def clipped_area(triangle: np.ndarray, cell: np.ndarray) -> float:
-    """Area of the triangle's part inside the cell, cut off by one side of the cell after another."""
+def clipped(triangle: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    """Corners (k, 3) of the triangle's part inside the cell, cut off by one side after another [Sutherland74]."""
     polygon = list(triangle)
     for axis in range(3):
         for side, limit in ((-1.0, -float(cell[axis])), (1.0, float(cell[axis] + 1))):
@@ -44,10 +44,27 @@ def clipped_area(triangle: np.ndarray, cell: np.ndarray) -> float:
                 if dp * dq < 0:
                     kept.append(p + (q - p) * (dp / (dp - dq)))
             polygon = kept
-            if not polygon:
-                return 0.0
-    rest = np.array(polygon) - polygon[0]
-    return float(np.linalg.norm(np.cross(rest[1:-1], rest[2:]).sum(0)) / 2) if len(rest) > 2 else 0.0
+    return np.array(polygon).reshape(-1, 3)
+
+
+def clipped_area(triangle: np.ndarray, cell: np.ndarray) -> float:
+    """Area of the triangle's part inside the cell."""
+    polygon = clipped(triangle, cell)
+    return float(np.linalg.norm(fan(polygon).sum(0))) if len(polygon) > 2 else 0.0
+
+
+def clipped_moment(triangle: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    """The area of that part times its centroid, (3,)."""
+    polygon = clipped(triangle, cell)
+    if len(polygon) < 3:
+        return np.zeros(3)
+    middles = (polygon[0] + polygon[1:-1] + polygon[2:]) / 3
+    return (np.linalg.norm(fan(polygon), axis=1)[:, None] * middles).sum(0)
+
+
+def fan(polygon: np.ndarray) -> np.ndarray:
+    """Areas as vectors (k - 2, 3) of the triangles that make up a convex polygon (k, 3)."""
+    return np.cross(polygon[1:-1] - polygon[0], polygon[2:] - polygon[0]) / 2
 
 
 def unit_normal(triangle: np.ndarray) -> np.ndarray:
