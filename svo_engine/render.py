@@ -20,6 +20,7 @@ from .passes.denoise import make_pictures, read_picture
 from .passes.gather import Incident, gather_cones, gather_rays, make_incident
 from .passes.light import injection_of, light
 from .passes.octree import build_octree
+from .passes.planes import planes_for
 from .passes.raster import GBuffer, make_targets, raster
 from .passes.resolve import GpuFilm, make_film, resolve
 from .passes.upload import GpuScene, upload
@@ -37,12 +38,12 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     """Yield the film after each sample; all in the device's own thread."""
     started = time.monotonic()
     sums = device.profiler.reset()
-    film = make_film(device, view.size)
-    with film.scope, kept.frame(device) as stage:
+    with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
             gpu_scene = stage("upload", upload, scene)
+        film = make_film(scope, view, planes_for(gpu_scene, settings), gpu_scene.centre_ws)
         targets = stage("targets", make_targets, view.size)
-        incident = stage("incident", make_incident, view.size)
+        incident = stage("incident", make_incident, view.size, gpu_scene.has_specular, "DIFFUSE_FOUND" in film.planes)
         gather, show = None, None
         if settings.view != "combined":
             show = _voxel_view(stage, device, gpu_scene, view, settings)
@@ -157,7 +158,8 @@ class Session:
 def _read(film: GpuFilm, device: Device, kept: Kept, scene: Scene, settings: RenderSettings) -> Film:
     """The film on the host, with what it took."""
     with kept.frame(device) as stage:
-        read = read_picture(device, film, stage("pictures", make_pictures, film.size), settings.denoise)
+        read = read_picture(device, film, stage("pictures", make_pictures, film.size), settings.denoise,
+                            settings.passes)
     counts = {"triangles": scene.n_triangles, "lights": len(scene.lights), "samples": film.n_samples,
               "device bytes": device.n_bytes, **device.profiler.counts}
     if film.cache:

@@ -41,10 +41,20 @@ VIEWS = (
     ("voxel_coverage", "Voxel Coverage", "The voxels themselves, showing how much of them the surfaces fill"),
 )
 
+# Render passes that can be had beside Combined, as Blender and Cycles name them -> a letter for each channel
+PASSES = {"Depth": "Z", "Position": "XYZ", "Normal": "XYZ",
+          **{f"{kind} {part}": "RGB" for kind in ("Diffuse", "Glossy", "Transmission")
+             for part in ("Direct", "Indirect", "Color")},
+          "Emission": "RGB", "Environment": "RGB", "Noisy Image": "RGBA", "Denoising Normal": "XYZ",
+          "Denoising Albedo": "RGB", "Denoising Depth": "Z"}
+
 
 @dataclass(frozen=True)
 class RenderSettings:
-    """One render's settings. Angles in radians, lengths in voxels where the label says so."""
+    """One render's settings. Angles in radians, lengths in voxels where the label says so.
+
+    passes  those of PASSES that are wanted; Blender asks for them by view layer, so that no panel is made of this
+    """
 
     method: str = _setting("rays", "Method", "How indirect light is gathered", "Sampling", choices=METHODS)
     samples: int = _setting(16, "Samples", "Pictures with shifted pixel centres that are averaged into the final one",
@@ -95,8 +105,11 @@ class RenderSettings:
                                          "Light Injection", low=0, high=1)
     injection_shininess: float = _setting(32.0, "Shininess", "Blinn-Phong's exponent alpha", "Light Injection", low=1,
                                           high=1000)
+    passes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        if unknown := [name for name in self.passes if name not in PASSES]:
+            raise SvoError(f"There is no render pass '{unknown[0]}'; there are {', '.join(PASSES)}")
         for name, spec in specs().items():
             value = getattr(self, name)
             if spec.choices and value not in (known := [c[0] for c in spec.choices]):
@@ -106,12 +119,14 @@ class RenderSettings:
 
 
 def specs() -> dict[str, Spec]:
-    """Every setting's Spec by its name, in the order of declaration."""
-    return {f.name: f.metadata["spec"] for f in fields(RenderSettings)}
+    """The Spec of every setting that has one by its name, in the order of declaration."""
+    return {f.name: f.metadata["spec"] for f in fields(RenderSettings) if "spec" in f.metadata}
 
 
 def with_text(settings: RenderSettings, name: str, text: str) -> RenderSettings:
     """`settings` with one field read from `text`, as the command line's --set NAME=VALUE gives it, or SvoError."""
+    if name == "passes":
+        return replace(settings, passes=tuple(part.strip() for part in text.split(",") if part.strip()))
     if name not in specs():
         raise SvoError(f"There is no setting '{name}'; there are {', '.join(specs())}")
     kind = type(getattr(settings, name))

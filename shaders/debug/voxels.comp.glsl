@@ -5,8 +5,8 @@
 // Invocation: one pixel; a ray walks from texel to texel [Amanatides87]
 
 #include "bind/camera.glsl"
+#include "bind/film.glsl"
 #include "bind/grid.glsl"
-#include "lib/layouts.glsl"
 #include "lib/math.glsl"
 
 layout(local_size_x = 64) in;
@@ -65,6 +65,6 @@ void main()
     camera_ray(vec2(pixel) + 0.5, origin, direction);
     float texels_per_voxel = exp2(-float(u_lod));
     vec4 value = first_texel(to_voxels(origin) * texels_per_voxel, direction, u_grid_n >> u_lod);
-    ivec3 at = ivec3(pixel, int(PLANE_COMBINED));
+    ivec3 at = ivec3(pixel, PLANE_COMBINED);
     imageStore(u_film, at, imageLoad(u_film, at) + value);
 }

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    one pass of the edge-avoiding a-trous wavelet [Dammertz10], guided by variance [Schied17]: where the light is
-//             known well, nothing is smoothed, so that the picture converges to the unfiltered one.
-// Formula:    w = h |n.n'|^64 exp(-|plane distance| / z) exp(-|dY| / (k sigma)); variances add with w^2
-// In:         u_light_in (rgb light, a variance or -1), u_film (normals, depths)
+//             known well, nothing is smoothed, so that the picture converges to the unfiltered one. What a surface mirrors
+//             is smoothed no farther than its roughness blurs it.
+// Formula:    w = h w_n exp(-|plane distance| / z) exp(-|dY| / (k sigma)); variances add with w^2; w_n = |n.n'|^64, for a
+//             reflection that the eye sees blurred by the angle a, exp(-(|n - n'|^2 + angle between pixels^2) / a^2)
+// In:         u_light_in (rgb light, a variance or -1), u_film (normals, depths, angles a)
 // Out:        u_light
 // Invocation: one pixel
 
 #include "bind/camera.glsl"
-#include "lib/layouts.glsl"
-#include "lib/math.glsl"
+#include "bind/film.glsl"
+#include "bind/samples.glsl"
 
+const bool IS_GLOSSY = false;
 const float NORMAL_POWER = 64.0;
 const float PLANE_PIXELS = 1.0;    // z: distance from the surface's plane, in pixels of that depth
+const float BLUR = 1.0;            // a, as a part of alpha
 
 layout(local_size_x = 64) in;
 
@@ -22,34 +26,40 @@ uniform sampler2DArray u_film;
 uniform uint u_first;
 uniform uint u_end;
 uniform int u_step;                // pixels between taps
-uniform float u_sigmas;            // k: differences of so many standard deviations are noise
+uniform float u_sigmas;            // k with one sample: differences of so many standard deviations are noise
 
-float luminance(vec3 c)
-{
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
-}
+struct Guide {
+    vec3 normal;
+    vec3 position;
+    float depth;
+};
 
-// Mean normal and mean position of a pixel's surface.
-void guide(ivec2 pixel, out vec3 n, out vec3 p, out float depth)
+// Means over the pixel's samples.
+Guide guide(ivec2 pixel)
 {
     vec4 sums = texelFetch(u_film, ivec3(pixel, PLANE_NORMAL_DEPTH), 0);
     float count = max(texelFetch(u_film, ivec3(pixel, PLANE_DIFFUSE_COLOR), 0).a, 1.0);
     vec3 o, d;
     camera_ray(vec2(pixel) + 0.5, o, d);
-    n = sums.xyz / count;
-    depth = sums.a / count;
-    p = o + d * depth;
+    return Guide(sums.xyz / count, o + d * (sums.a / count), sums.a / count);
 }
 
-// The variance that steers is itself noisy: its mean over 3x3 pixels.
-float steady_variance(ivec2 pixel)
+// What steers is itself noisy: means over 3x3 pixels of the variance and of the angle a.
+vec2 steady(ivec2 pixel)
 {
-    float sum = 0.0, weight = 0.0;
+    vec2 sum = vec2(0.0);
+    float weight = 0.0;
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) {
-            float variance = texelFetch(u_light_in, clamp(pixel + ivec2(x, y), ivec2(0), u_size - 1), 0).a;
-            float w = variance < 0.0 ? 0.0 : (2.0 - abs(float(x))) * (2.0 - abs(float(y)));
-            sum += w * variance, weight += w;
+            ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), u_size - 1);
+            float variance = texelFetch(u_light_in, at, 0).a;
+            if (variance < 0.0)
+                continue;
+            float w = (2.0 - abs(float(x))) * (2.0 - abs(float(y)));
+            sum.x += w * variance;
+            if (IS_GLOSSY)
+                sum.y += w * texelFetch(u_film, ivec3(at, PLANE_GLOSSY_COLOR), 0).a / n_samples(at);
+            weight += w;
         }
     return sum / max(weight, 1e-6);
 }
@@ -66,13 +76,14 @@ void main()
         return;
     }
     const float kernel[3] = float[3](3.0 / 8.0, 1.0 / 4.0, 1.0 / 16.0);
-    vec3 n, p, other_n, other_p, o, d, o1, d1;
-    float depth, other_depth;
-    guide(pixel, n, p, depth);
+    Guide here = guide(pixel);
+    vec3 o, d, o1, d1;
     camera_ray(vec2(pixel) + vec2(1.5, 0.5), o1, d1);
     camera_ray(vec2(pixel) + 0.5, o, d);
-    float pixel_size = distance(o + d * depth, o1 + d1 * depth) * PLANE_PIXELS * float(u_step) + 1e-9;
-    float sigma = u_sigmas * sqrt(steady_variance(pixel)) + 1e-9, Y = luminance(own.rgb);
+    vec2 steady_here = steady(pixel);
+    float pixel_size = distance(o + d * here.depth, o1 + d1 * here.depth) + 1e-9, Y = luminance(own.rgb);
+    float sigma = u_sigmas * inversesqrt(n_samples(pixel)) * sqrt(steady_here.x) + 1e-9;
+    float angle = u_step * pixel_size / max(here.depth, 1e-9), blur = 1.0 / max(BLUR * BLUR * steady_here.y * steady_here.y, 1e-12);
     vec4 sum = vec4(0.0);
     float weight = 0.0;
     for (int y = -2; y <= 2; y++)
@@ -83,9 +94,13 @@ void main()
             vec4 tap = texelFetch(u_light_in, at, 0);
             if (tap.a < 0.0)
                 continue;
-            guide(at, other_n, other_p, other_depth);
-            float w = kernel[abs(x)] * kernel[abs(y)] * pow(clamp(dot(n, other_n), 0.0, 1.0), NORMAL_POWER)
-                    * exp(-abs(dot(n, other_p - p)) / pixel_size - abs(luminance(tap.rgb) - Y) / sigma);
+            Guide there = guide(at);
+            vec3 dn = there.normal - here.normal;
+            float w_n = IS_GLOSSY ? exp(-(dot(dn, dn) + float(x * x + y * y) * angle * angle) * blur)
+                                  : pow(clamp(dot(here.normal, there.normal), 0.0, 1.0), NORMAL_POWER);
+            float w = kernel[abs(x)] * kernel[abs(y)] * w_n
+                    * exp(-abs(dot(here.normal, there.position - here.position)) / (pixel_size * PLANE_PIXELS * float(u_step))
+                          - abs(luminance(tap.rgb) - Y) / sigma);
             sum += vec4(w * tap.rgb, w * w * tap.a);
             weight += w;
         }

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose:    the mean irradiance of one kind (lamps or indirect) without the surface's colour, and the variance of that mean.
-// Formula:    E = pi sum(rho E / pi) / sum(rho); var = (sum(Y^2) / n - Y^2) / (n - 1), with few samples estimated from the
-//             pixels around
-// In:         u_film, u_n_samples
-// Out:        u_light: rgb E [W m^-2], a variance of its luminance; negative where there is no diffuse surface
+// Purpose:    the mean light of one plane of the film without the surface's colour, and the variance of that mean.
+// Formula:    E = s sum(L) / sum(rho), s = pi for irradiance; var = (sum(Y^2) / n - Y^2) / (n - 1), with few samples
+//             estimated from the pixels around
+// In:         u_film
+// Out:        u_light: rgb E, a variance of its luminance; negative where there is no such surface
 // Invocation: one pixel
 
-#include "lib/layouts.glsl"
-#include "lib/math.glsl"
+#include "bind/film.glsl"
+#include "bind/samples.glsl"
 
-const uint PLANE = 1u;      // PLANE_DIFFUSE_DIRECT or _INDIRECT
+const int PLANE = -1;       // of light
+const int COLOR = -1;       // of the albedo that it was multiplied with
+const float SCALE = 1.0;    // s
 const float FEW = 4.0;      // samples below which a pixel alone does not tell its variance
 const int RADIUS = 3;
 
@@ -21,16 +23,10 @@ uniform sampler2DArray u_film;
 uniform uint u_first;
 uniform uint u_end;
 uniform ivec2 u_size;
-uniform float u_n_samples;
 
-vec3 irradiance(ivec2 pixel, vec3 color)
+vec3 light(ivec2 pixel, vec3 color)
 {
-    return PI * texelFetch(u_film, ivec3(pixel, PLANE), 0).rgb / max(color, 1e-4 * u_n_samples);
-}
-
-float luminance(vec3 c)
-{
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
+    return SCALE * texelFetch(u_film, ivec3(pixel, PLANE), 0).rgb / max(color, MIN_ALBEDO * n_samples(pixel));
 }
 
 // Variance of one sample, from second differences along the rows around, which light that changes evenly does not have:
@@ -43,10 +39,10 @@ float spatial_variance(ivec2 pixel)
         vec3 Y = vec3(0.0), w = vec3(0.0);  // of three neighbours
         for (int x = -RADIUS; x <= RADIUS; x++) {
             ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), u_size - 1);
-            vec4 color = texelFetch(u_film, ivec3(at, PLANE_DIFFUSE_COLOR), 0);
             vec3 other = normalize(texelFetch(u_film, ivec3(at, PLANE_NORMAL_DEPTH), 0).xyz + 1e-9);
-            Y = vec3(Y.yz, luminance(irradiance(at, color.rgb)));
-            w = vec3(w.yz, color.a > 0.0 ? pow(max(dot(n, other), 0.0), 32.0) : 0.0);
+            bool has_surface = texelFetch(u_film, ivec3(at, PLANE_DIFFUSE_COLOR), 0).a > 0.0;
+            Y = vec3(Y.yz, luminance(light(at, texelFetch(u_film, ivec3(at, COLOR), 0).rgb)));
+            w = vec3(w.yz, has_surface ? pow(max(dot(n, other), 0.0), 32.0) : 0.0);
             float bend = Y.x - 2.0 * Y.y + Y.z, together = w.x * w.y * w.z;
             squares += together * bend * bend / 6.0;
             weight += together;
@@ -61,14 +57,15 @@ void main()
     ivec2 pixel = tiled_pixel(index, u_size);
     if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
         return;
-    vec4 color = texelFetch(u_film, ivec3(pixel, PLANE_DIFFUSE_COLOR), 0);
-    if (max(color.r, max(color.g, color.b)) <= 1e-3 * color.a) {
+    vec3 color = texelFetch(u_film, ivec3(pixel, COLOR), 0).rgb;
+    float n = texelFetch(u_film, ivec3(pixel, PLANE_DIFFUSE_COLOR), 0).a;
+    if (max(color.r, max(color.g, color.b)) <= 1e-3 * n) {
         imageStore(u_light, pixel, vec4(0.0, 0.0, 0.0, -1.0));
         return;
     }
-    vec3 E = irradiance(pixel, color.rgb);
-    float Y = luminance(E), n = color.a, variance;
-    if (u_n_samples < FEW)
+    vec3 E = light(pixel, color);
+    float Y = luminance(E), variance;
+    if (n_samples(pixel) < FEW)
         variance = spatial_variance(pixel);
     else
         variance = max(texelFetch(u_film, ivec3(pixel, PLANE), 0).a / n - Y * Y, 0.0) / max(n - 1.0, 1.0);

@@ -3,10 +3,11 @@
 //             nine diffuse cones and a specular cone for the indirect light.
 // Formula:    E = pi sum w_i L_i, w_i = cos_i / sum cos; specular L times the environment BRDF [Karis13]
 // In:         G-buffer, scene, lights, filtered voxels, world
-// Out:        u_irradiance_direct, u_irradiance_indirect [W m^-2]; u_specular [W m^-2 sr^-1], what leaves towards the eye
+// Out:        u_incident
 // Invocation: one pixel
 
 #include "bind/gbuffer.glsl"
+#include "bind/incident.glsl"
 #include "bind/environment.glsl"
 #include "bind/cones.glsl"
 #include "lib/brdf.glsl"
@@ -21,9 +22,6 @@ const int N_RING = 8;             // cones around the one along the normal
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Lights { Light lights[]; };
-layout(rgba32f) uniform writeonly image2D u_irradiance_direct;
-layout(rgba32f) uniform writeonly image2D u_irradiance_indirect;
-layout(rgba32f) uniform writeonly image2D u_specular;
 
 uniform uint u_first;
 uniform uint u_end;
@@ -34,25 +32,30 @@ uniform float u_tan_half_aperture;
 uniform float u_tan_half_shadow;
 uniform bool u_specular_cone;
 
-vec3 cone_light(vec3 p_vx, vec3 normal, vec3 d, float tan_half_angle)
+// world: the part of it that comes from there.
+vec3 cone_light(vec3 p_vx, vec3 normal, vec3 d, float tan_half_angle, out vec3 world)
 {
     vec4 met = trace_cone(p_vx, normal, d, tan_half_angle, 1e9);
-    return met.rgb + (1.0 - met.a) * world_radiance(d, tan_half_angle);
+    world = (1.0 - met.a) * world_radiance(d, tan_half_angle);
+    return met.rgb + world;
 }
 
-vec3 diffuse_cones(Surface s)
+vec3 diffuse_cones(Surface s, out vec3 world)
 {
-    vec3 p_vx = to_voxels(s.position);
+    vec3 p_vx = to_voxels(s.position), world_of_cone;
     mat3 frame = frame_of(s.normal);
-    vec3 sum = cone_light(p_vx, s.normal_geometric, s.normal, u_tan_half_aperture);
+    vec3 sum = cone_light(p_vx, s.normal_geometric, s.normal, u_tan_half_aperture, world);
     float weight = 1.0, ring_cos = cos(u_ring_angle), ring_sin = sin(u_ring_angle);
     for (int i = 0; i < N_RING; i++) {
         float phi = 2.0 * PI * float(i) / float(N_RING);
         vec3 d = frame * vec3(ring_sin * cos(phi), ring_sin * sin(phi), ring_cos);
-        if (dot(d, s.normal_geometric) > 0.0)
-            sum += ring_cos * cone_light(p_vx, s.normal_geometric, d, u_tan_half_aperture);
         weight += ring_cos;
+        if (dot(d, s.normal_geometric) <= 0.0)
+            continue;
+        sum += ring_cos * cone_light(p_vx, s.normal_geometric, d, u_tan_half_aperture, world_of_cone);
+        world += ring_cos * world_of_cone;
     }
+    world *= PI / weight;
     return PI * sum / weight;
 }
 
@@ -74,7 +77,7 @@ void direct_light(Seen seen, vec3 f0, uint seed, inout vec3 E, inout vec3 specul
             continue;
         vec3 arriving = NoL * light.E_perp * (lights[i].casts_shadow != 0u ? shadow_cone(s, light) : 1.0);
         E += arriving;
-        if (HAS_SPECULAR) {
+        if (HAS_SPECULAR && f0 != vec3(0.0)) {
             vec3 h = normalize(light.wi + seen.wo);
             specular += arriving * microfacet_brdf(f0, alpha, dot(s.normal, h), NoV, NoL, dot(seen.wo, h));
         }
@@ -87,25 +90,31 @@ void main()
     ivec2 pixel = tiled_pixel(index, u_size);
     if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
         return;
-    vec3 E_direct = vec3(0.0), E_indirect = vec3(0.0), specular = vec3(0.0);
+    vec3 E_direct = vec3(0.0), E_indirect = vec3(0.0), E_world = vec3(0.0), L_direct = vec3(0.0), L_indirect = vec3(0.0);
     Seen seen = seen_at(pixel, HAS_TEXTURES);
     if (seen.hit) {
         Surface s = seen.surface;
         Material m = materials[s.material];
         vec3 f0 = mix(dielectric_f0(m.ior, m.specular_level) * m.specular_tint, seen.shading.base_color, seen.shading.metallic);
-        direct_light(seen, f0, hash(uint(pixel.x) + hash(uint(pixel.y) + u_seed)), E_direct, specular);
+        direct_light(seen, f0, hash(uint(pixel.x) + hash(uint(pixel.y) + u_seed)), E_direct, L_direct);
         if (HAS_INDIRECT) {
-            E_indirect = diffuse_cones(s);
+            E_indirect = diffuse_cones(s, E_world);
             vec2 ab = environment_brdf(seen.shading.roughness, dot(s.normal, seen.wo));
             vec3 reflectance = f0 * ab.x + (f0 == vec3(0.0) ? 0.0 : ab.y);
             if (HAS_SPECULAR && u_specular_cone && reflectance != vec3(0.0)) {
                 float tan_half_angle = clamp(seen.shading.roughness * seen.shading.roughness, 0.01, 1.0);
-                vec3 d = reflect(-seen.wo, s.normal);
-                specular += reflectance * cone_light(to_voxels(s.position), s.normal_geometric, d, tan_half_angle);
+                vec3 d = reflect(-seen.wo, s.normal), world;
+                vec3 L = cone_light(to_voxels(s.position), s.normal_geometric, d, tan_half_angle, world);
+                L_direct += reflectance * world;
+                L_indirect += reflectance * (L - world);
             }
         }
     }
-    imageStore(u_irradiance_direct, pixel, vec4(E_direct, 0.0));
-    imageStore(u_irradiance_indirect, pixel, vec4(E_indirect, 0.0));
-    imageStore(u_specular, pixel, vec4(specular, 0.0));
+    arrive(pixel, INCIDENT_DIFFUSE_DIRECT, vec4(E_direct, 0.0));
+    arrive(pixel, INCIDENT_DIFFUSE_INDIRECT, vec4(E_indirect, 0.0));
+    arrive(pixel, INCIDENT_DIFFUSE_FOUND, vec4(E_world, 0.0));
+    arrive(pixel, INCIDENT_GLOSSY_DIRECT, vec4(L_direct, 0.0));
+    arrive(pixel, INCIDENT_GLOSSY_INDIRECT, vec4(L_indirect, 0.0));
+    arrive(pixel, INCIDENT_TRANSMISSION_DIRECT, vec4(0.0));
+    arrive(pixel, INCIDENT_TRANSMISSION_INDIRECT, vec4(0.0));
 }

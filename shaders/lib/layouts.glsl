@@ -17,11 +17,6 @@ const uint NO_NORMAL = 2147516416u;
 const uint BVH_LEAF = 2147483648u;
 const uint BVH_NONE = 4294967295u;
 const uint BVH_HEIGHT_BITS = 6u;
-const uint PLANE_COMBINED = 0u;
-const uint PLANE_DIFFUSE_DIRECT = 1u;
-const uint PLANE_DIFFUSE_INDIRECT = 2u;
-const uint PLANE_DIFFUSE_COLOR = 3u;
-const uint PLANE_NORMAL_DEPTH = 4u;
 
 struct Instance {
     vec4 row_x;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    the light that leaves each pixel towards the eye, added to the film.
-// Formula:    L = Le + rho_d / pi (E_direct + E_indirect) + L_specular; a pixel without a surface shows the world
-// In:         G-buffer, scene, world, incident light
-// Out:        u_film: sums in the layers PLANE_*; denoise/compose divides by the number of samples
+// Formula:    L = Le + rho_d / pi (E_direct + E_indirect) + L_glossy + L_transmission; without a surface, the world
+// In:         G-buffer, scene, world, u_incident
+// Out:        u_film: sums in the layers that are asked for; the number of samples is the same for all
 // Invocation: one pixel
 
+#include "bind/film.glsl"
 #include "bind/gbuffer.glsl"
 #include "bind/environment.glsl"
+#include "bind/incident.glsl"
 #include "lib/brdf.glsl"
 
 const bool HAS_TEXTURES = false;
@@ -15,35 +17,86 @@ const bool HAS_SPECULAR = true;
 layout(local_size_x = 64) in;
 
 layout(rgba32f) uniform image2DArray u_film;
-uniform sampler2D u_irradiance_direct;
-uniform sampler2D u_irradiance_indirect;
-uniform sampler2D u_specular;
 
 uniform uint u_first;
 uniform uint u_end;
 uniform bool u_film_transparent;
+uniform bool u_is_first;  // of the samples
 
-// Diffuse reflectance: the base colour's part that is neither metal nor glass, under a layer that reflects the rest.
-vec3 diffuse_albedo(Seen seen)
+struct Albedo {
+    vec3 diffuse;
+    vec3 glossy;
+    vec3 transmission;
+};
+
+// Diffuse: the base colour's part that is neither metal nor glass, under a layer that reflects the rest.
+Albedo albedo_of(Seen seen)
 {
     Material m = materials[seen.surface.material];
-    vec3 rho = seen.shading.base_color * ((1.0 - seen.shading.metallic) * (1.0 - m.transmission));
-    if (!HAS_SPECULAR || m.specular_level == 0.0)
-        return rho;
+    vec3 base = seen.shading.base_color;
+    float dielectric = 1.0 - seen.shading.metallic;
+    Albedo albedo = Albedo(base * (dielectric * (1.0 - m.transmission)), vec3(0.0), base * (dielectric * m.transmission));
+    if (!HAS_SPECULAR)
+        return albedo;
     vec2 ab = environment_brdf(seen.shading.roughness, dot(seen.surface.normal, seen.wo));
-    return rho * max(1.0 - (dielectric_f0(m.ior, m.specular_level) * ab.x + ab.y), 0.0);
+    float f0 = dielectric_f0(m.ior, m.specular_level), reflected = f0 == 0.0 ? 0.0 : f0 * ab.x + ab.y;
+    albedo.diffuse *= max(1.0 - reflected, 0.0);
+    albedo.transmission *= max(1.0 - reflected, 0.0);
+    vec3 f = mix(f0 * m.specular_tint, base, seen.shading.metallic);
+    albedo.glossy = f == vec3(0.0) ? f : f * ab.x + ab.y;
+    return albedo;
 }
 
-void add(ivec2 pixel, uint plane, vec4 value)
+void add(ivec2 pixel, int plane, vec4 value)
 {
-    ivec3 at = ivec3(pixel, int(plane));
+    if (plane < 0)
+        return;
+    ivec3 at = ivec3(pixel, plane);
     imageStore(u_film, at, imageLoad(u_film, at) + value);
 }
 
 float luminance_squared(vec3 c)
 {
-    float y = dot(c, vec3(0.2126, 0.7152, 0.0722));
-    return y * y;
+    return luminance(c) * luminance(c);
+}
+
+vec3 add_diffuse(ivec2 pixel, vec3 rho)
+{
+    vec3 direct = arrived(pixel, INCIDENT_DIFFUSE_DIRECT).rgb, indirect = arrived(pixel, INCIDENT_DIFFUSE_INDIRECT).rgb;
+    add(pixel, PLANE_DIFFUSE_DIRECT, vec4(rho / PI * direct, luminance_squared(direct)));
+    add(pixel, PLANE_DIFFUSE_INDIRECT, vec4(rho / PI * indirect, luminance_squared(indirect)));
+    add(pixel, PLANE_DIFFUSE_FOUND, vec4(rho / PI * arrived(pixel, INCIDENT_DIFFUSE_FOUND).rgb, 0.0));
+    add(pixel, PLANE_DIFFUSE_COLOR, vec4(rho, 1.0));
+    return rho / PI * (direct + indirect);
+}
+
+vec3 add_glossy(ivec2 pixel, vec3 albedo, float alpha)
+{
+    vec4 indirect = arrived(pixel, INCIDENT_GLOSSY_INDIRECT);
+    vec3 direct = arrived(pixel, INCIDENT_GLOSSY_DIRECT).rgb, without_color = 1.0 / max(albedo, MIN_ALBEDO);
+    add(pixel, PLANE_GLOSSY_DIRECT, vec4(direct, luminance_squared(direct * without_color)));
+    add(pixel, PLANE_GLOSSY_INDIRECT, vec4(indirect.rgb, luminance_squared(indirect.rgb * without_color)));
+    add(pixel, PLANE_GLOSSY_COLOR, vec4(albedo, alpha * indirect.a));
+    return direct + indirect.rgb;
+}
+
+vec3 add_transmission(ivec2 pixel, vec3 albedo)
+{
+    vec3 direct = arrived(pixel, INCIDENT_TRANSMISSION_DIRECT).rgb;
+    vec3 indirect = arrived(pixel, INCIDENT_TRANSMISSION_INDIRECT).rgb;
+    add(pixel, PLANE_TRANSMISSION_DIRECT, vec4(direct, 0.0));
+    add(pixel, PLANE_TRANSMISSION_INDIRECT, vec4(indirect, 0.0));
+    add(pixel, PLANE_TRANSMISSION_COLOR, vec4(albedo, 0.0));
+    return direct + indirect;
+}
+
+void add_place(ivec2 pixel, Surface s)
+{
+    vec3 eye, d;
+    camera_ray(vec2(pixel) + 0.5, eye, d);
+    add(pixel, PLANE_NORMAL_DEPTH, vec4(s.normal, distance(eye, s.position)));
+    if (u_is_first)
+        add(pixel, PLANE_POSITION, vec4(s.position, 1.0));
 }
 
 void main()
@@ -53,18 +106,19 @@ void main()
     if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
         return;
     Seen seen = seen_at(pixel, HAS_TEXTURES);
-    vec4 color = vec4(0.0);
-    if (seen.hit) {
-        vec3 direct = texelFetch(u_irradiance_direct, pixel, 0).rgb, indirect = texelFetch(u_irradiance_indirect, pixel, 0).rgb;
-        vec3 rho = diffuse_albedo(seen), eye, d;
-        camera_ray(vec2(pixel) + 0.5, eye, d);
-        color = vec4(seen.shading.emission + rho * (direct + indirect) / PI + texelFetch(u_specular, pixel, 0).rgb, 1.0);
-        add(pixel, PLANE_DIFFUSE_DIRECT, vec4(rho / PI * direct, luminance_squared(direct)));
-        add(pixel, PLANE_DIFFUSE_INDIRECT, vec4(rho / PI * indirect, luminance_squared(indirect)));
-        add(pixel, PLANE_DIFFUSE_COLOR, vec4(rho, 1.0));
-        add(pixel, PLANE_NORMAL_DEPTH, vec4(seen.surface.normal, distance(eye, seen.surface.position)));
-    } else if (!u_film_transparent) {
-        color = vec4(world_radiance(-seen.wo, 0.0), 1.0);
+    if (!seen.hit) {
+        vec3 world = world_radiance(-seen.wo, 0.0);
+        add(pixel, PLANE_ENVIRONMENT, vec4(world, 0.0));
+        add(pixel, PLANE_COMBINED, u_film_transparent ? vec4(0.0) : vec4(world, 1.0));
+        return;
     }
-    add(pixel, PLANE_COMBINED, color);
+    Albedo albedo = albedo_of(seen);
+    vec3 L = seen.shading.emission + add_diffuse(pixel, albedo.diffuse);
+    if (HAS_SPECULAR) {
+        L += add_glossy(pixel, albedo.glossy, seen.shading.roughness * seen.shading.roughness);
+        L += add_transmission(pixel, albedo.transmission);
+    }
+    add(pixel, PLANE_EMISSION, vec4(seen.shading.emission, 0.0));
+    add(pixel, PLANE_COMBINED, vec4(L, 1.0));
+    add_place(pixel, seen.surface);
 }

@@ -21,7 +21,7 @@ _UNIT_OPTIONS: dict[str, dict[str, str]] = {
 
 def defaults() -> dict[str, Any]:
     """Every setting's default by its name."""
-    return {f.name: f.default for f in fields(RenderSettings)}
+    return {f.name: f.default for f in fields(RenderSettings) if f.name in specs()}
 
 
 def settings_of(scene: bpy.types.Scene) -> RenderSettings:

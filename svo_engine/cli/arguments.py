@@ -73,7 +73,7 @@ def _add_settings(command: argparse.ArgumentParser) -> None:
     _add_frame(command)
     command.epilog = "settings:\n" + "\n".join(
         f"  {f'{f.name}={f.default:g}' if isinstance(f.default, float) else f'{f.name}={f.default}':26}"
-        f"{specs()[f.name].description}" for f in fields(RenderSettings))
+        f"{specs()[f.name].description}" for f in fields(RenderSettings) if f.name in specs())
     command.formatter_class = argparse.RawDescriptionHelpFormatter
 
 

@@ -19,31 +19,39 @@ from .upload import GpuScene
 from .voxelize import GEOMETRY, GRID, MATERIALS
 
 CAMERA = ("u_ray_origin", "u_ray_direction", "u_size")
-PLANES = ("u_irradiance_direct", "u_irradiance_indirect", "u_specular")
+KINDS = ("DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_FOUND", "GLOSSY_DIRECT", "GLOSSY_INDIRECT",
+         "TRANSMISSION_DIRECT", "TRANSMISSION_INDIRECT")  # of light, see bind/incident.glsl
 
 CONES = Pass(("gather/cones.comp.glsl",), (*GEOMETRY, *MATERIALS, "Lights"),
-             textures=("u_visibility", "u_env", "u_radiance"), images=PLANES,
+             textures=("u_visibility", "u_env", "u_radiance"), images=("u_incident",),
              uniforms=(*CAMERA, *WORLD, *GRID, "u_cone_offset", "u_cone_step", "u_cone_distance", "u_sample", "u_seed",
                        "u_ring_angle", "u_tan_half_aperture", "u_tan_half_shadow", "u_specular_cone"))
 
 
 RAYS = Pass(("gather/rays.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Lights"),
-            textures=("u_visibility", "u_env", *TRACE), images=PLANES,
+            textures=("u_visibility", "u_env", *TRACE), images=("u_incident",),
             uniforms=(*CAMERA, *WORLD, *CACHE_UNIFORMS, *TRACE_UNIFORMS, "u_sample", "u_seed"))
 
 
 @dataclass(frozen=True, eq=False)
 class Incident:
-    """planes: textures f4 by the names of PLANES: irradiance [W m^-2], and specular radiance towards the eye."""
+    """layers: a texture f4 for each of the `kinds` of light."""
 
     scope: GpuScope
-    planes: dict[str, Any]
+    kinds: tuple[str, ...]
+    layers: Any
+
+    def constants(self) -> dict[str, int]:
+        """The constants of bind/incident.glsl."""
+        return {f"INCIDENT_{kind}": self.kinds.index(kind) if kind in self.kinds else -1 for kind in KINDS}
 
 
-def make_incident(device: Device, size: tuple[int, int]) -> Incident:
-    """Textures for pictures of `size` pixels."""
+def make_incident(device: Device, size: tuple[int, int], has_specular: bool, is_told_apart: bool) -> Incident:
+    """Textures for pictures of `size` pixels; is_told_apart: whether it matters which indirect light met an emitter."""
     scope = device.scope()
-    return Incident(scope, {name: scope.texture(name, size, 4, "f4") for name in PLANES})
+    kinds = tuple(kind for kind in KINDS
+                  if (is_told_apart if kind == "DIFFUSE_FOUND" else has_specular or kind.startswith("DIFFUSE")))
+    return Incident(scope, kinds, scope.layers("incident", size, len(kinds)))
 
 
 def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: GBuffer, incident: Incident,
@@ -51,11 +59,12 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: G
     """Fill `incident` for one sample by cone tracing."""
     grid = lit.voxels.grid
     constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "HAS_TEXTURES": gpu_scene.has_textures,
-                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_SPECULAR": gpu_scene.has_specular}
+                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_SPECULAR": gpu_scene.has_specular,
+                 **incident.constants()}
     device.dispatch(
         CONES, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
-        **gbuffer.uniforms(), **grid.uniforms(), **incident.planes, Lights=gpu_scene.lights, u_radiance=lit.radiance,
-        u_cone_offset=settings.cone_offset, u_cone_step=settings.cone_step,
+        **gbuffer.uniforms(), **grid.uniforms(), u_incident=incident.layers, Lights=gpu_scene.lights,
+        u_radiance=lit.radiance, u_cone_offset=settings.cone_offset, u_cone_step=settings.cone_step,
         u_cone_distance=settings.cone_distance * grid.n, u_sample=sample, u_seed=settings.seed,
         u_ring_angle=settings.cone_ring_angle, u_tan_half_aperture=tan(settings.cone_aperture / 2),
         u_tan_half_shadow=tan(settings.shadow_aperture / 2), u_specular_cone=settings.specular_cone)
@@ -67,10 +76,10 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh
     constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "HAS_TEXTURES": gpu_scene.has_textures,
                  "HAS_INDIRECT": gpu_scene.has_light, "HAS_SPECULAR": gpu_scene.has_specular,
                  "HAS_ALPHA": gpu_scene.has_alpha,
-                 "N_RAYS": settings.gather_rays, **bvh.constants()}
+                 "N_RAYS": settings.gather_rays, **incident.constants(), **bvh.constants()}
     device.dispatch(
         RAYS, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
-        **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), **incident.planes, Lights=gpu_scene.lights,
-        u_sample=sample, u_seed=settings.seed)
+        **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), u_incident=incident.layers,
+        Lights=gpu_scene.lights, u_sample=sample, u_seed=settings.seed)
     width, height = gbuffer.targets.size
     device.profiler.counts["diffuse rays"] += width * height * settings.gather_rays

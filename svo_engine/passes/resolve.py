@@ -6,51 +6,73 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
-from ..scene import layouts
+from ..scene.types import View
 from .cache import WORLD, LightCache
-from .gather import CAMERA, PLANES, Incident
+from .gather import CAMERA, Incident
 from .raster import GBuffer
 from .upload import GpuScene
 from .voxelize import GEOMETRY, MATERIALS
 
-ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS),
-                  textures=("u_visibility", "u_env", *PLANES), images=("u_film",),
-                  uniforms=(*CAMERA, *WORLD, "u_film_transparent"))
+ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS), textures=("u_visibility", "u_env"),
+                  images=("u_film", "u_incident"), uniforms=(*CAMERA, *WORLD, "u_film_transparent", "u_is_first"))
 
+# What bind/film.glsl knows, in the order of layers
+PLANES = ("COMBINED", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_FOUND", "DIFFUSE_COLOR", "GLOSSY_DIRECT",
+          "GLOSSY_INDIRECT", "GLOSSY_COLOR", "TRANSMISSION_DIRECT", "TRANSMISSION_INDIRECT", "TRANSMISSION_COLOR",
+          "EMISSION", "ENVIRONMENT", "NORMAL_DEPTH", "POSITION")
 
 @dataclass(eq=False)
 class GpuFilm:
-    """The running sums on the device: a layer for each of layouts.FILM_PLANES.
+    """The running sums on the device.
 
+    planes   those of PLANES that were asked for: a layer of `sums` each
+    centre   (3,) f8, metres: what positions are relative to
     gbuffer  of the latest sample
     is_last  whether the frame ends with this one
     limits   a sentence for each setting that the device was too small for
     cache    the light that its rays found, if there were rays
     """
 
-    scope: GpuScope
-    size: tuple[int, int]
+    view: View
+    planes: tuple[str, ...]
     sums: Any
+    centre: np.ndarray
     n_samples: int = 0
     is_last: bool = False
     gbuffer: GBuffer | None = None
     limits: list[str] = field(default_factory=list)
     cache: LightCache | None = None
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        return self.view.size
 
-def make_film(device: Device, size: tuple[int, int]) -> GpuFilm:
-    """An empty film of `size` pixels."""
-    scope = device.scope()
-    return GpuFilm(scope, size, scope.layers("film", size, len(layouts.FILM_PLANES)))
+    def layer(self, plane: str) -> int:
+        """Where a plane is; -1: nowhere."""
+        return self.planes.index(plane) if plane in self.planes else -1
+
+    def constants(self) -> dict[str, int]:
+        """The constants of bind/film.glsl."""
+        return {f"PLANE_{plane}": self.layer(plane) for plane in PLANES}
+
+
+def make_film(scope: GpuScope, view: View, planes: tuple[str, ...], centre: np.ndarray) -> GpuFilm:
+    """An empty film in `scope` for what `view` sees."""
+    return GpuFilm(view, planes, scope.layers("film", view.size, len(planes)), centre)
 
 
 def resolve(device: Device, gpu_scene: GpuScene, gbuffer: GBuffer, incident: Incident, film: GpuFilm) -> None:
     """Add one sample to `film`."""
-    constants = {"HAS_TEXTURES": gpu_scene.has_textures, "HAS_SPECULAR": gpu_scene.has_specular}
+    constants = {"HAS_TEXTURES": gpu_scene.has_textures, "HAS_SPECULAR": gpu_scene.has_specular, **film.constants(),
+                 **incident.constants()}
     device.dispatch(ACCUMULATE, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials,
-                    **gpu_scene.world(), **gbuffer.uniforms(), **incident.planes, u_film=film.sums,
-                    u_film_transparent=gpu_scene.scene.film_transparent)
+                    **gpu_scene.world(), **gbuffer.uniforms(), u_film=film.sums,
+                    u_incident=incident.layers,
+                    u_film_transparent=gpu_scene.scene.film_transparent, u_is_first=film.n_samples == 0)
     film.n_samples += 1

@@ -74,16 +74,11 @@ STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Ligh
            "Emitter": EMITTER, "Voxel": VOXEL, "Surfel": SURFEL, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE,
            "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
 
-# Sums over the samples of a picture, one layer each. COMBINED: premultiplied RGBA. DIFFUSE_*: rho / pi E, and in alpha
-# the square of E's luminance. DIFFUSE_COLOR: rho. NORMAL_DEPTH: unit normal of the first hit, distance from the eye
-FILM_PLANES = ("COMBINED", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_COLOR", "NORMAL_DEPTH")
-
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
              "LIGHT_POINT": 0, "LIGHT_SUN": 1, "LIGHT_SPOT": 2, "LIGHT_AREA": 3,
              "NO_NORMAL": 0x80008000,
-             "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6,
-             **{f"PLANE_{name}": i for i, name in enumerate(FILM_PLANES)}}
+             "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6}
 
 
 def dtype(struct: Fields) -> np.dtype:

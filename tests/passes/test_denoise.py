@@ -10,8 +10,8 @@ import pytest
 
 from svo_engine.passes.denoise import STEPS, make_pictures, read_picture
 from svo_engine.passes.raster import GBuffer, make_targets
+from svo_engine.passes.resolve import PLANES as FILM_PLANES
 from svo_engine.passes.resolve import make_film
-from svo_engine.scene import layouts
 from svo_engine.scene.types import World
 from tests import scenes
 from tests.on_gpu import picture_of
@@ -54,7 +54,7 @@ def noisy(n: int, mean: np.ndarray | float = 1.0, seed: int = 1) -> np.ndarray:
 def film_planes(seen: Wall, plane: str) -> np.ndarray:
     """Sums over the samples, (layers, h, w, 4) f4, as resolve/accumulate leaves them; the light is in `plane`."""
     n, height, width = seen.samples.shape
-    planes = {name: np.zeros((height, width, 4)) for name in layouts.FILM_PLANES}
+    planes = {name: np.zeros((height, width, 4)) for name in FILM_PLANES}
     diffuse = seen.albedo / np.pi * seen.samples.sum(0)
     has_surface = n * (seen.albedo > 0)
     planes["COMBINED"] += (diffuse + n * seen.gloss)[..., None]
@@ -65,7 +65,7 @@ def film_planes(seen: Wall, plane: str) -> np.ndarray:
     planes["DIFFUSE_COLOR"][..., 3] = has_surface
     planes["NORMAL_DEPTH"][..., :3] = has_surface[..., None] * seen.normals
     planes["NORMAL_DEPTH"][..., 3] = has_surface * seen.depths
-    return np.stack([planes[name] for name in layouts.FILM_PLANES]).astype("f4")
+    return np.stack([planes[name] for name in FILM_PLANES]).astype("f4")
 
 
 def picture(device, seen: Wall, is_filtered: bool = True, plane: str = "DIFFUSE_INDIRECT") -> np.ndarray:
@@ -73,8 +73,9 @@ def picture(device, seen: Wall, is_filtered: bool = True, plane: str = "DIFFUSE_
     size = seen.samples.shape[2], seen.samples.shape[1]
     view = scenes.view(scenes.scene(camera=above(2.0 * size[0] / SIDE, size=size)))
     world_from_clip = view.world_from_view @ np.linalg.inv(view.clip_from_view)
-    film, targets, pictures = make_film(device, size), make_targets(device, size), make_pictures(device, size)
-    with film.scope, targets.scope, pictures.scope:
+    targets, pictures = make_targets(device, size), make_pictures(device, size)
+    with device.scope() as scope, targets.scope, pictures.scope:
+        film = make_film(scope, view, FILM_PLANES, np.zeros(3))
         film.sums.write(film_planes(seen, plane).tobytes())
         film.n_samples, film.gbuffer = len(seen.samples), GBuffer(targets, world_from_clip)
         pixels = read_picture(device, film, pictures, is_filtered).planes["Combined"]

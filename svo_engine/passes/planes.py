@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""GpuFilm -> Blender's render passes: unfiltered means of the planes that were asked for, as Cycles defines them.
+
+Combined is the sum over diffuse, glossy and transmission of (direct + indirect) x colour, emission and environment.
+Depth and position are those of the first sample; all else is the mean over the samples, in which what no surface
+covers counts as 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..gpu.device import Device
+from ..gpu.passes import Pass
+from ..settings import PASSES, RenderSettings
+from .resolve import PLANES, GpuFilm
+from .upload import GpuScene
+
+MEAN = Pass(("planes/mean.comp.glsl",), textures=("u_film",), images=("u_mean",),
+            uniforms=("u_size", "u_weights", "u_divisor", "u_n_samples"))
+
+DEPTH_OF_NOTHING = 1e10  # as in Cycles
+
+_GUIDES = ("DIFFUSE_COLOR", "NORMAL_DEPTH")
+_FILTERED = (*_GUIDES, "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT")
+_FILTERED_GLOSSY = ("GLOSSY_DIRECT", "GLOSSY_INDIRECT", "GLOSSY_COLOR")
+
+
+@dataclass(frozen=True)
+class Source:
+    """Of a render pass. plus, minus: planes; divisor: a plane, or "" for the number of samples."""
+
+    plus: tuple[str, ...]
+    minus: tuple[str, ...] = ()
+    divisor: str = ""
+
+    @property
+    def planes(self) -> frozenset[str]:
+        """All that it needs."""
+        return frozenset((*self.plus, *self.minus, self.divisor)) - {""}
+
+
+SOURCES = {
+    "Depth": Source(("POSITION",)),
+    "Position": Source(("POSITION",)),
+    "Normal": Source(("NORMAL_DEPTH",)),
+    "Diffuse Direct": Source(("DIFFUSE_DIRECT", "DIFFUSE_FOUND"), (), "DIFFUSE_COLOR"),
+    "Diffuse Indirect": Source(("DIFFUSE_INDIRECT",), ("DIFFUSE_FOUND",), "DIFFUSE_COLOR"),
+    "Diffuse Color": Source(("DIFFUSE_COLOR",)),
+    "Glossy Direct": Source(("GLOSSY_DIRECT",), (), "GLOSSY_COLOR"),
+    "Glossy Indirect": Source(("GLOSSY_INDIRECT",), (), "GLOSSY_COLOR"),
+    "Glossy Color": Source(("GLOSSY_COLOR",)),
+    "Transmission Direct": Source(("TRANSMISSION_DIRECT",), (), "TRANSMISSION_COLOR"),
+    "Transmission Indirect": Source(("TRANSMISSION_INDIRECT",), (), "TRANSMISSION_COLOR"),
+    "Transmission Color": Source(("TRANSMISSION_COLOR",)),
+    "Emission": Source(("EMISSION",)),
+    "Environment": Source(("ENVIRONMENT",)),
+    "Noisy Image": Source(("COMBINED",)),
+    "Denoising Normal": Source(("NORMAL_DEPTH",)),
+    "Denoising Albedo": Source(("DIFFUSE_COLOR", "GLOSSY_COLOR", "TRANSMISSION_COLOR", "EMISSION", "ENVIRONMENT")),
+    "Denoising Depth": Source(("NORMAL_DEPTH",)),
+}
+
+
+def planes_for(gpu_scene: GpuScene, settings: RenderSettings) -> tuple[str, ...]:
+    """The planes that the picture and the asked passes are made of."""
+    wanted = {"COMBINED"}.union(*(SOURCES[name].planes for name in settings.passes))
+    if settings.denoise and settings.view == "combined":
+        wanted.update(_FILTERED, _FILTERED_GLOSSY if gpu_scene.has_specular else ())
+    return tuple(plane for plane in PLANES if plane in wanted)
+
+
+def read_pass(device: Device, film: GpuFilm, name: str, texture: Any) -> np.ndarray:
+    """The render pass `name`, (height, width, channels) f4; `texture`, RGBA f4 of the film's size, is overwritten."""
+    assert film.gbuffer is not None, "a film without a sample"
+    source = SOURCES[name]
+    weights = np.zeros(16, "f4")
+    for planes, weight in ((source.plus, 1), (source.minus, -1)):
+        weights[[film.layer(plane) for plane in planes]] = weight
+    device.dispatch(MEAN, film.gbuffer.n_invocations, film.constants(), u_film=film.sums, u_mean=texture,
+                    u_size=film.size, u_weights=weights.reshape(4, 4).T, u_divisor=film.layer(source.divisor),
+                    u_n_samples=float(film.n_samples))
+    with device.profiler.host("read back"):
+        width, height = film.size
+        mean = np.frombuffer(texture.read(alignment=1), "f4").reshape(height, width, 4)
+    finish = _FINISH.get(name)
+    return (finish(film, mean) if finish else mean[..., :len(PASSES[name])]).astype("f4")
+
+
+def _camera(film: GpuFilm) -> np.ndarray:
+    """Rows x, y, z of Cycles' camera space, whose z points away from the eye."""
+    return film.view.world_from_view[:3, :3].T * [[1], [1], [-1]]
+
+
+def _position(film: GpuFilm, first: np.ndarray) -> np.ndarray:
+    """World space; 0 where there is nothing. The film has a mean over the samples of what only the first one gave."""
+    return (first[..., :3] * film.n_samples + film.centre) * (first[..., 3:] > 0)
+
+
+def _depth(film: GpuFilm, first: np.ndarray) -> np.ndarray:
+    """Along the camera's axis, metres from the camera."""
+    depth = (_position(film, first) - film.view.world_from_view[:3, 3]) @ _camera(film)[2]
+    return np.where(first[..., 3] > 0, depth, DEPTH_OF_NOTHING)[..., None]
+
+
+def _denoising_normal(film: GpuFilm, mean: np.ndarray) -> np.ndarray:
+    return mean[..., :3] @ _camera(film).T
+
+
+def _denoising_depth(_film: GpuFilm, mean: np.ndarray) -> np.ndarray:
+    """Metres from the eye."""
+    return mean[..., 3:]
+
+
+_FINISH: dict[str, Callable[[GpuFilm, np.ndarray], np.ndarray]] = {
+    "Position": _position, "Depth": _depth, "Denoising Normal": _denoising_normal,
+    "Denoising Depth": _denoising_depth}
