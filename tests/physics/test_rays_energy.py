@@ -1,55 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Indirect light by rays against closed forms: what goes in comes out, at every resolution of the light cache."""
+"""Indirect light by rays against closed forms: what goes in comes out. `figures.py` has the furnaces."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from svo_engine.scene.types import Camera, Material, World
+from svo_engine.scene.types import Material, World
 from tests import scenes
-from tests.rays import TURN, above, directions, floor_points, glow, rectangle_share, shot
+from tests.physics.figures import inside
+from tests.rays import above, directions, floor_points, glow, rectangle_share, shot
 
 FLAT = 0.8 / np.pi  # what white surfaces send back of the irradiance
-EYE = scenes.look((-0.8, -0.7, -0.3), (0.5, 0.9, 0.2))
-
-
-def inside(place: np.ndarray) -> Camera:
-    return Camera("Inside", place, (32, 24), lens=20.0, clip_start=0.001)
-
-
-def furnace(rho: float, turn: np.ndarray):
-    """Walls of a closed box that send out 1 and reflect rho, seen from inside."""
-    box = scenes.Thing(scenes.box("Box", (-1, -1, -1), (1, 1, 1)), glow(1.0, rho), (turn,))
-    return scenes.scene(box, camera=inside(turn @ EYE))
-
-
-@pytest.mark.parametrize(("resolution", "turn"), [
-    ("32", np.eye(4)), ("64", np.eye(4)), ("128", np.eye(4)), ("256", np.eye(4)), ("32", TURN), ("64", TURN)])
-def test_a_furnace_is_as_bright_everywhere(session, resolution, turn):
-    """L = Le / (1 - rho) on the walls of a closed box, whatever the rays. The tolerance that ends bounces leaves out
-    rho^3 TOLERANCE of it. Turned, every face cuts voxels askew and voxels at the edges hold two or three of them.
-    """
-    settings = {"cache_resolution": resolution, "cache_rays": 1, "gather_rays": 1, "bounces": 64}
-    assert np.allclose(shot(session, furnace(0.5, turn), **settings), 2, rtol=2e-3)
-
-
-def test_a_bright_furnace(session):
-    assert np.allclose(shot(session, furnace(0.8, TURN), bounces=64), 5, rtol=5e-3)
-
-
-def test_a_white_room_under_a_white_sky_cannot_be_seen(session):
-    """Albedo 1 everywhere, radiance 1 from outside: all light gets out again, and all that is seen is 1. The tolerance
-    ends the bounces at 0.5 % of what the first brought; with 1 / (1 - 0.85) bounces in a room with one side open, up to
-    3 % of that is missing, in the corners of most.
-    """
-    white = Material("White", (1, 1, 1), specular_level=0)
-    things = [replace(thing, material=white) for thing in scenes.room()]
-    found = shot(session, scenes.scene(*things, camera=scenes.cornell().camera, world=World((1, 1, 1))), bounces=64)
-    assert found.max() < 1 + 1e-5
-    assert found.mean() > 0.99
 
 
 def test_an_integrating_sphere(session):
@@ -109,12 +71,6 @@ def test_half_a_roof_takes_half_of_its_share(session):
     check_share(found, 1 - rectangle_share(POINTS, LOW, HIGH, 0.2) / 2, 64)
 
 
-def test_the_resolution_of_the_cache_changes_nothing(session):
-    """A room with a lamp, colours and a block."""
-    found = [shot(session, scenes.cornell(), samples=4, cache_resolution=n).mean() for n in ("32", "64", "128")]
-    assert np.allclose(found, found[-1], rtol=0.02)
-
-
 @pytest.mark.parametrize("thickness", [0.0, 0.01, 0.03, 0.1, 0.3])
 def test_the_thickness_of_a_board_changes_nothing(session, thickness):
     """A sunlit floor, from a tenth of a voxel to four, lights the walls around it as a sheet does."""
@@ -125,13 +81,3 @@ def test_the_thickness_of_a_board_changes_nothing(session, thickness):
     sheet, board = (shot(session, scenes.scene(floor, *walls, camera=above(), lights=(sun,)), samples=4).mean()
                     for floor in floors)
     assert board == pytest.approx(sheet, rel=0.01)
-
-
-def test_a_wall_of_twenty_thousand_triangles_sends_what_one_of_two_sends(session):
-    sun = scenes.lamp("SUN", (1, 0, 0.5), emitted=3.0)
-    means = []
-    for n in (1, 100):
-        wall = scenes.Thing(scenes.quad("Wall", (-0.5, -1, 0), (0, 2, 0), (0.1, 0, 1.5), n), scenes.RED)
-        scene = scenes.scene(scenes.Thing(scenes.floor()), wall, lights=(sun,), camera=above())
-        means.append(shot(session, scene, samples=4).mean((0, 1)))
-    assert np.allclose(means[0], means[1], rtol=0.01)
