@@ -19,18 +19,25 @@ uvec2 child_bit(ivec3 at)
     return uvec2(bit >> 5, bit & 31);
 }
 
+// Word and bit of the node that holds a voxel of the grid.
+uvec2 node_bit(ivec3 voxel)
+{
+    ivec3 cell = voxel >> 4;
+    int n_cells = u_grid_n >> 4;
+    uvec2 bit = child_bit((voxel >> 2) & 3);
+    return uvec2(uint((cell.z * n_cells + cell.y) * n_cells + cell.x) * 2u + bit.x, bit.y);
+}
+
 // Number of the node that holds a voxel, or NOTHING.
 uint find_node(ivec3 voxel)
 {
     if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(u_grid_n))))
         return NOTHING;
-    ivec3 cell = voxel >> 4;
-    int n_cells = u_grid_n >> 4;
-    uvec2 bit = child_bit((voxel >> 2) & 3);
-    uint word = uint((cell.z * n_cells + cell.y) * n_cells + cell.x) * 2u + bit.x, mask = octree[word];
+    uvec2 bit = node_bit(voxel);
+    uint mask = octree[bit.x];
     if ((mask >> bit.y & 1u) == 0u)
         return NOTHING;
-    return octree[u_n_top_words + word] + uint(bitCount(mask & ((1u << bit.y) - 1u)));
+    return octree[u_n_top_words + bit.x] + uint(bitCount(mask & ((1u << bit.y) - 1u)));
 }
 
 // Word and bit of a surfel in a node's masks.

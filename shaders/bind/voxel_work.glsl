@@ -17,6 +17,7 @@ struct Strip {
     VoxelTriangle shape;
     uint instance;
     uint triangle;
+    uint material;
     int first;   // first column of the rectangle, counted row by row, and the one after the last
     int end;
 };
@@ -48,6 +49,7 @@ Strip strip_at(uint index)
     }
     Strip strip;
     strip.shape = shape_of_work(low, strip.instance, strip.triangle);
+    strip.material = material_of(strip.instance, strip.triangle);
     strip.first = int(index - strip_first[low]) * COLUMNS;
     strip.end = min(strip.first + COLUMNS, columns_of(strip.shape));
     return strip;

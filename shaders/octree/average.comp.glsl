@@ -8,25 +8,16 @@
 #include "lib/layouts.glsl"
 #include "lib/math.glsl"
 #include "bind/grid.glsl"
+#include "bind/voxel_sums.glsl"
 
-const bool HAS_EMISSION = false;
-const int SUMS = 16;
-const float ONE = 262144.0;       // as in octree/accumulate
 const float MAX_ALBEDO = 0.9999;  // below 1, so that the light of endless bounces ends
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Sums { uint sums[]; };
 layout(std430) writeonly buffer Surfels { Surfel surfels[]; };
 
 uniform uint u_first;
 uniform uint u_end;
-uniform float u_emission_unit;
-
-vec3 mean3(uint at, float area)
-{
-    return vec3(int(sums[at]), int(sums[at + 1u]), int(sums[at + 2u])) / area;
-}
 
 // How far the outermost plane of one side lies beyond the mean position; 0 if no surface faces that way.
 float beyond(uint plane, float height)
@@ -40,9 +31,10 @@ void main()
     if (i >= u_end)
         return;
     uint at = i * uint(SUMS), key = sums[at + 10u];
-    float area = float(sums[at]);
+    float area = max(float(sums[at]), 1.0);
     vec3 voxel = vec3(key & 1023u, key >> 10u & 1023u, key >> 20u & 1023u);
-    vec3 inside = clamp(mean3(at + 7u, area), 0.0, 1.0), n = normalize(mean3(at + 4u, area));
+    vec3 inside = clamp(mean3(at + 7u, area), 0.0, 1.0), n = mean3(at + 4u, area);
+    n = dot(n, n) > 0.0 ? normalize(n) : vec3(0.0, 0.0, 1.0);  // where octree/accumulate found no touch
     surfels[i].position = u_grid_low + (voxel + inside) / u_voxels_per_metre;
     surfels[i].normal = pack_unit(n);
     surfels[i].albedo = clamp(mean3(at + 1u, area), 0.0, MAX_ALBEDO);

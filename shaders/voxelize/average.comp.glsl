@@ -8,25 +8,15 @@
 #include "lib/layouts.glsl"
 #include "lib/math.glsl"
 #include "bind/voxels.glsl"
-
-const bool HAS_EMISSION = false;
-const int SUMS = 11;
-const float ONE = 262144.0;
+#include "bind/voxel_sums.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Sums { uint sums[]; };
 layout(std430) readonly buffer VoxelFirst { uint voxel_first[]; };
 layout(std430) writeonly buffer Voxels { Voxel voxels[]; };
 
 uniform uint u_first;
 uniform uint u_end;
-uniform float u_emission_unit;
-
-vec3 mean3(uint at, float area)
-{
-    return vec3(int(sums[at]), int(sums[at + 1u]), int(sums[at + 2u])) / area;
-}
 
 void main()
 {
@@ -36,7 +26,7 @@ void main()
     uint bits = occupancy[word], i = voxel_first[word];
     for (; bits != 0u; bits &= bits - 1u, i++) {
         uint at = i * uint(SUMS);
-        float area = float(sums[at]);
+        float area = max(float(sums[at]), 1.0);
         vec3 normal = mean3(at + 4u, area);
         uvec3 v = uvec3(occupancy_voxel(word, uint(findLSB(bits))));
         float coverage = clamp(float(sums[at + 7u]) / ONE, 0.0, 1.0);

@@ -1,39 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose:    exclusive prefix sums inside blocks of 2048 counts; voxelize/scan_add joins the blocks [Blelloch90].
-// In:         Counts
-// Out:        Counts: the sum of all before it in its block; BlockSums: the sum of each block
-// Invocation: eight neighbouring counts; one workgroup a block
+// Purpose:    exclusive prefix sums [Blelloch90]: each block adds up its own values, behind the sums of all blocks before it.
+// In:         Values, BlockSums of all blocks but the last
+// Out:        Firsts: the sum of all values before it, Values itself if need be; Total: the sum of all
+// Invocation: eight neighbouring values; one workgroup a block
 
-layout(local_size_x = 256) in;
+#include "voxelize/scan_values.glsl"
 
-layout(std430) buffer Counts { uint counts[]; };
-layout(std430) writeonly buffer BlockSums { uint block_sums[]; };
-
-uniform uint u_first;
-uniform uint u_end;
-uniform uint u_n_counts;
+layout(std430) readonly buffer BlockSums { uint block_sums[]; };
+layout(std430) writeonly buffer Firsts { uint firsts[]; };
+layout(std430) writeonly buffer Total { uint total[]; };
 
 shared uint sums[256];
+shared uint before;
 
 void main()
 {
-    uint block = u_first / 256u + gl_WorkGroupID.x, lane = gl_LocalInvocationID.x;
-    uint start = block * 2048u + lane * 8u, own[8], total = 0u;
+    uint block = block_of_workgroup(), lane = gl_LocalInvocationID.x;
+    uint start = block * 2048u + lane * 8u, own[8], sum = 0u, blocks = 0u;
     for (uint i = 0u; i < 8u; i++) {
-        own[i] = total;
-        total += start + i < u_n_counts ? counts[start + i] : 0u;
+        own[i] = sum;
+        sum += value_at(start + i);
     }
-    sums[lane] = total;
+    sums[lane] = sum;
+    if (lane == 0u)
+        before = 0u;
     barrier();
+    for (uint i = lane; i < block; i += 256u)
+        blocks += block_sums[i];
+    atomicAdd(before, blocks);
     for (uint reach = 1u; reach < 256u; reach *= 2u) {
-        uint before = lane >= reach ? sums[lane - reach] : 0u;
+        uint left = lane >= reach ? sums[lane - reach] : 0u;
         barrier();
-        sums[lane] += before;
+        sums[lane] += left;
         barrier();
     }
     for (uint i = 0u; i < 8u; i++)
-        if (start + i < u_n_counts)
-            counts[start + i] = own[i] + sums[lane] - total;
-    if (lane == 255u)
-        block_sums[block] = sums[255];
+        if (start + i < u_n_values)
+            firsts[start + i] = before + sums[lane] - sum + own[i];
+    if (start < u_n_values && start + 8u >= u_n_values)
+        total[0] = before + sums[lane];
 }

@@ -15,9 +15,10 @@ from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..scene import layouts
 from .upload import GpuScene
-from .voxelize import GEOMETRY, GRID, MATERIALS, WORK, Grid, cut_strips, make_grid, mark, number_bits
+from .voxelize import GEOMETRY, GRID, MATERIALS, WORK, Grid, cut_strips, make_grid, number_bits
 
 TREE = ("u_n_top_words", "u_n_node_words")
+MARK_NODES = Pass(("octree/mark_nodes.comp.glsl",), (*GEOMETRY, "StripFirst", "Octree"), uniforms=WORK)
 MARK = Pass(("octree/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Octree"), uniforms=(*WORK, *TREE))
 ACCUMULATE = Pass(("octree/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS, "StripFirst", "Octree", "Sums"),
                   uniforms=(*WORK, *TREE, "u_emission_unit"))
@@ -55,9 +56,8 @@ def build_octree(device: Device, gpu_scene: GpuScene, n: int) -> Octree:
     if not gpu_scene.n_work:
         return Octree(scope, grid, scope.buffer("octree", 8 * n_top, clear=True), scope.buffer("surfels", 0), 0, 0)
     with device.scope() as scratch:
-        words, n_nodes = _top(device, scope, scratch, gpu_scene, grid)
-    with device.scope() as scratch:
         work, n_strips = cut_strips(device, scratch, gpu_scene, grid)
+        words, n_nodes = _top(device, scope, scratch, work, n_strips, n_top)
         tree = {"Octree": words, **tree_sizes(n, n_nodes)}
         device.dispatch(MARK, n_strips, **work, **tree)
         n_node = NODE_WORDS * n_nodes
@@ -69,12 +69,11 @@ def build_octree(device: Device, gpu_scene: GpuScene, n: int) -> Octree:
     return Octree(scope, grid, words, surfels, n_nodes, n_surfels)
 
 
-def _top(device: Device, scope: GpuScope, scratch: GpuScope, gpu_scene: GpuScene, grid: Grid) -> tuple[Any, int]:
+def _top(device: Device, scope: GpuScope, scratch: GpuScope, work: dict[str, Any], n_strips: int,
+         n_top: int) -> tuple[Any, int]:
     """The octree's words with the top half filled and zeros in the rest, and the number of nodes."""
-    nodes = Grid(grid.n // NODE, grid.low, grid.voxel_size * NODE)
-    n_top = nodes.n**3 // 32
-    work, n_strips = cut_strips(device, scratch, gpu_scene, nodes)
-    masks = mark(device, scratch, work, n_strips, nodes)
+    masks = scratch.buffer("top masks", 4 * n_top, clear=True)
+    device.dispatch(MARK_NODES, n_strips, Octree=masks, **work)
     first, n_nodes = number_bits(device, scratch, masks, n_top)
     words = scope.buffer("octree", 4 * (2 * n_top + 2 * NODE_WORDS * n_nodes), clear=True)
     device.ctx.copy_buffer(words, masks, 4 * n_top)

@@ -25,14 +25,13 @@ WORK = (*GRID, "u_n_instances", "u_n_work")
 
 COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "StripFirst"), uniforms=WORK)
 MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Occupancy"), uniforms=WORK)
-COUNT_BITS = Pass(("voxelize/count_bits.comp.glsl",), ("Bits", "BitFirst"))
 ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
                   (*GEOMETRY, *MATERIALS, "StripFirst", "Occupancy", "VoxelFirst", "Sums"),
                   uniforms=(*WORK, "u_emission_unit"))
 AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Occupancy", "VoxelFirst", "Sums", "Voxels"),
                uniforms=(*GRID, "u_emission_unit"))
-SCAN = Pass(("voxelize/scan.comp.glsl",), ("Counts", "BlockSums"), uniforms=("u_n_counts",))
-SCAN_ADD = Pass(("voxelize/scan_add.comp.glsl",), ("Counts", "BlockSums"))
+BLOCK_SUMS = Pass(("voxelize/block_sums.comp.glsl",), ("Values", "BlockSums"), uniforms=("u_n_values",))
+SCAN = Pass(("voxelize/scan.comp.glsl",), ("Values", "BlockSums", "Firsts", "Total"), uniforms=("u_n_values",))
 
 PADDING = 2  # empty voxels around the scene: a filter never reads past the border
 SHIFT = 0.3819660113  # of a voxel, irrational, so that walls on round coordinates do not lie in cell borders
@@ -111,17 +110,18 @@ def mark(device: Device, scope: GpuScope, work: dict[str, Any], n_strips: int, g
 def number_bits(device: Device, scope: GpuScope, bits: Any, n_words: int) -> tuple[Any, int]:
     """For each of n_words words of `bits` the number of set bits before it, and the number of all."""
     first = scope.buffer("bit numbers", 4 * n_words)
-    device.dispatch(COUNT_BITS, n_words, Bits=bits, BitFirst=first)
-    return first, scan(device, scope, first, n_words)
+    return first, scan(device, scope, bits, n_words, first, are_bits=True)
 
 
-def scan(device: Device, scratch: GpuScope, counts: Any, n: int) -> int:
-    """Replace n counts (u4) by the sum of all before each, in place; return the sum of all."""
-    n_blocks = -(-n // SCAN_BLOCK)
-    sums = scratch.buffer("block sums", 4 * n_blocks)
-    device.dispatch(SCAN, n_blocks * 256, Counts=counts, BlockSums=sums, u_n_counts=n)
-    if n_blocks == 1:
-        return int(np.frombuffer(sums.read(4), "u4")[0])
-    total = scan(device, scratch, sums, n_blocks)
-    device.dispatch(SCAN_ADD, n, Counts=counts, BlockSums=sums)
-    return total
+def scan(device: Device, scratch: GpuScope, values: Any, n: int, firsts: Any = None, are_bits: bool = False) -> int:
+    """Put the sum of all before each of n values (u4) into `firsts`, or in their place; return the sum of all.
+
+    are_bits: a value is the number of bits that are set in its word
+    """
+    n_blocks, constants = -(-n // SCAN_BLOCK), {"ARE_BITS": are_bits}
+    sums, total = scratch.buffer("block sums", 4 * n_blocks), scratch.buffer("total", 4, clear=True)
+    resources = {"Values": values, "BlockSums": sums, "u_n_values": n}
+    if n_blocks > 1:
+        device.dispatch(BLOCK_SUMS, (n_blocks - 1) * 256, constants, **resources)
+    device.dispatch(SCAN, n_blocks * 256, constants, **resources, Firsts=firsts or values, Total=total)
+    return int(np.frombuffer(total.read(4), "u4")[0])

@@ -11,7 +11,7 @@ import pytest
 from svo_engine.errors import Cancelled
 from svo_engine.gpu import device as module
 from svo_engine.gpu.passes import Pass
-from svo_engine.passes.voxelize import SCAN, SCAN_ADD, scan
+from svo_engine.passes.voxelize import BLOCK_SUMS, SCAN, scan
 
 COUNTS = np.random.default_rng(1).integers(0, 9, 100_000).astype("u4")
 
@@ -40,9 +40,9 @@ def test_small_slices_give_what_one_dispatch_gives(device):
     device.profiler.reset()
     result = scanned(device)
     assert np.array_equal(result, np.cumsum(COUNTS) - COUNTS)
-    assert n_slices(device, SCAN) > 25  # of 49 blocks of counts and one block of their sums
-    assert n_slices(device, SCAN_ADD) > 100
-    assert device.profiler.counts["voxelize/scan_add invocations"] == len(COUNTS)
+    assert n_slices(device, SCAN) > 25  # of 49 blocks
+    assert n_slices(device, BLOCK_SUMS) > 25
+    assert device.profiler.counts["voxelize/scan invocations"] == 49 * 256
 
 
 def test_one_dispatch_gives_the_same(device, monkeypatch):
@@ -50,7 +50,7 @@ def test_one_dispatch_gives_the_same(device, monkeypatch):
     monkeypatch.setattr(device, "_per_second", {})
     device.profiler.reset()
     assert np.array_equal(scanned(device), np.cumsum(COUNTS) - COUNTS)
-    assert (n_slices(device, SCAN), n_slices(device, SCAN_ADD)) == (2, 1)
+    assert (n_slices(device, SCAN), n_slices(device, BLOCK_SUMS)) == (1, 1)
 
 
 @pytest.mark.usefixtures("small_slices")
@@ -74,17 +74,17 @@ def test_a_stop_is_heard_before_the_next_slice(device, monkeypatch):
 def test_nothing_to_do_runs_nothing(device):
     device.profiler.reset()
     with device.scope() as scope:
-        device.dispatch(SCAN_ADD, 0, Counts=scope.buffer("counts", 0), BlockSums=scope.buffer("sums", 0))
-    assert n_slices(device, SCAN_ADD) == 0
+        device.dispatch(BLOCK_SUMS, 0, Values=scope.buffer("values", 0), BlockSums=scope.buffer("sums", 0), u_n_values=0)
+    assert n_slices(device, BLOCK_SUMS) == 0
 
 
 @pytest.mark.parametrize(("given", "said"), [
-    ({"Counts": None}, r"voxelize/scan_add: missing \['BlockSums'\], unknown \[\]"),
-    ({"Counts": None, "BlockSums": None, "u_x": 1}, r"missing \[\], unknown \['u_x'\]"),
+    ({"Values": None, "u_n_values": 1}, r"voxelize/block_sums: missing \['BlockSums'\], unknown \[\]"),
+    ({"Values": None, "BlockSums": None, "u_n_values": 1, "u_x": 1}, r"missing \[\], unknown \['u_x'\]"),
 ])
 def test_a_call_must_give_just_what_the_pass_declares(device, given, said):
     with pytest.raises(AssertionError, match=said):
-        device.dispatch(SCAN_ADD, 1, **given)
+        device.dispatch(BLOCK_SUMS, 1, **given)
 
 
 def test_a_pass_is_named_after_its_stage_and_entry():
