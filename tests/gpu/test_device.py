@@ -68,13 +68,15 @@ def test_a_stop_is_heard_before_the_next_slice(device, monkeypatch):
     device.profiler.reset()
     with pytest.raises(Cancelled):
         scanned(device)
-    assert n_slices(device, SCAN) == 3
+    assert n_slices(device, BLOCK_SUMS) == 3
+    assert n_slices(device, SCAN) == 0
 
 
 def test_nothing_to_do_runs_nothing(device):
     device.profiler.reset()
     with device.scope() as scope:
-        device.dispatch(BLOCK_SUMS, 0, Values=scope.buffer("values", 0), BlockSums=scope.buffer("sums", 0), u_n_values=0)
+        nothing = scope.buffer("nothing", 0)
+        device.dispatch(BLOCK_SUMS, 0, Values=nothing, BlockSums=nothing, u_n_values=0)
     assert n_slices(device, BLOCK_SUMS) == 0
 
 
