@@ -37,7 +37,7 @@ def render(file: Path, pictures: Sequence[Path], texts: Texts, size: Size, frame
 
     texts: (name, value) of settings that are not to be the file's own. SvoError if there is no picture.
     """
-    with _opened(file, texts, size, frame) as (scene, warnings):
+    with opened(file, texts, size, frame) as (scene, warnings):
         scene.render.engine = "SVO_ENGINE"
         scene.render.filepath = str(pictures[0].resolve())
         _set_format(scene, pictures[0])
@@ -56,7 +56,7 @@ def render(file: Path, pictures: Sequence[Path], texts: Texts, size: Size, frame
 
 def extract_scene(file: Path, frame: int | None) -> Scene:
     """The scene as a final render of the active view layer would see it. SvoError if it cannot be rendered."""
-    with _opened(file, (), None, frame) as (scene, _):
+    with opened(file, (), None, frame) as (scene, _):
         for layer in scene.view_layers:
             layer.use = layer == bpy.context.view_layer
         _Taker.taken = None
@@ -75,7 +75,7 @@ def extract_scene(file: Path, frame: int | None) -> Scene:
 def compare(file: Path, folder: Path, texts: Texts, samples: int, bounces: int | None, size: Size,
             frame: int | None) -> tuple[Comparison, tuple[str, ...]]:
     """Our engine beside Cycles, and what was warned of."""
-    with _opened(file, texts, size, frame) as (scene, warnings):
+    with opened(file, texts, size, frame) as (scene, warnings):
         reference = cycles_run(scene, samples, bounces)
         return compare_runs(scene, bpy.context.view_layer, folder, svo_run(), reference), warnings()
 
@@ -98,7 +98,7 @@ class _Taker(bpy.types.RenderEngine):
 
 
 @contextmanager
-def _opened(file: Path, texts: Texts, size: Size, frame: int | None
+def opened(file: Path, texts: Texts, size: Size, frame: int | None
             ) -> Iterator[tuple[bpy.types.Scene, Callable[[], tuple[str, ...]]]]:
     """The scene of `file`, prepared, and a function that gives the warnings that Blender has reported so far."""
     checked = reduce(lambda settings, text: with_text(settings, *text), texts, RenderSettings())

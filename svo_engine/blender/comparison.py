@@ -75,13 +75,13 @@ def steps(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, folder: Path, ours
     with no_new_render_result():
         for run in runs:
             path = folder / f"{run.name}.exr"
-            with _prepared(scene, layer, run):
+            with prepared(scene, layer, run):
                 seconds = yield
                 with as_svo_errors():
                     bpy.data.images[render_result()].save_render(str(path), scene=scene)
                 found_of[run.name] = {"engine": run.engine, "picture": path.name, "seconds": seconds,
                                       **run.describe(scene)}
-            images.append(_load(path))
+            images.append(load_picture(path))
     all_seconds = found_of[ours.name]["seconds"], found_of[reference.name]["seconds"]
     found = Comparison(errors(*images), all_seconds, folder / "comparison.png")
     _save(_montage(scene, runs, images, found), found.picture)
@@ -91,7 +91,7 @@ def steps(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, folder: Path, ours
 
 
 @contextmanager
-def _prepared(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, run: Run) -> Iterator[None]:
+def prepared(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, run: Run) -> Iterator[None]:
     """All settings as `run` needs them."""
     with ExitStack() as until_done:
         change(until_done, scene.render, **_RENDER)
@@ -121,7 +121,7 @@ def _write_floats(until_done: ExitStack, image: bpy.types.ImageFormatSettings) -
         space.is_data = True  # no conversion into the user's own space
 
 
-def _load(path: Path) -> np.ndarray:
+def load_picture(path: Path) -> np.ndarray:
     """(h, w, 3) f4, scene-linear, row 0 at the bottom, of the EXR at `path`."""
     with as_svo_errors():
         image = bpy.data.images.load(str(path))

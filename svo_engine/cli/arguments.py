@@ -4,24 +4,21 @@
 from __future__ import annotations
 
 import argparse
-import re
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from ..settings import RenderSettings, specs
-from . import commands
-
-# Blender's own limits, so that both kinds of scene take the same
-_SIZE_LIMITS, _FRAME_LIMITS = (4, 65536), (-1048574, 1048574)
+from . import bench, commands
+from .values import FRAME_LIMITS, assignment, integer, named, size
 
 
 def make_parser() -> argparse.ArgumentParser:
     """The parser; `run` of what it returns is the command's function."""
     parser = argparse.ArgumentParser("svo_engine", description="Voxel global illumination for Blender.")
     subparsers = parser.add_subparsers(required=True, metavar="COMMAND")
-    for add in (_add_render, _add_extract, _add_compare, _add_info):
+    for add in (_add_render, _add_extract, _add_compare, bench.add, _add_info):
         add(subparsers)
     return parser
 
@@ -33,7 +30,7 @@ def _add_render(subparsers: Any) -> None:
                          help="a .png or .exr, or a folder for both (default: %(default)s)")
     for name, metavar in (("method", "NAME"), ("samples", "N"), ("time_limit", "SECONDS")):
         command.add_argument("--" + name.replace("_", "-"), dest="values", action="append", default=[], metavar=metavar,
-                             type=_named(name), help=specs()[name].description)
+                             type=named(name), help=specs()[name].description)
     _add_settings(command)
     command.add_argument("--stats", type=Path, metavar="FILE.json", help="write times, counts and versions there")
 
@@ -49,9 +46,9 @@ def _add_compare(subparsers: Any) -> None:
     command = _add(subparsers, commands.compare, "Render with SVO and with Cycles at equal settings, and measure.")
     command.add_argument("file", type=Path, metavar="FILE.blend")
     command.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for pictures and numbers")
-    command.add_argument("--samples", type=_integer(1, 2**24), default=256, metavar="N",
+    command.add_argument("--samples", type=integer(1, 2**24), default=256, metavar="N",
                          help="samples of Cycles (default: %(default)s)")
-    command.add_argument("--bounces", type=_integer(0, 1024), metavar="N",
+    command.add_argument("--bounces", type=integer(0, 1024), metavar="N",
                          help="bounces of every kind in Cycles (default: the file's own)")
     _add_settings(command)
 
@@ -67,9 +64,9 @@ def _add(subparsers: Any, run: Callable[[argparse.Namespace], None], text: str) 
 
 
 def _add_settings(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--set", dest="values", action="append", default=[], type=_assignment, metavar="NAME=VALUE",
+    command.add_argument("--set", dest="values", action="append", default=[], type=assignment, metavar="NAME=VALUE",
                          help="one of the settings below; may be given several times")
-    command.add_argument("--size", type=_size, metavar="WxH", help="size in pixels (default: the scene's own)")
+    command.add_argument("--size", type=size, metavar="WxH", help="size in pixels (default: the scene's own)")
     _add_frame(command)
     command.epilog = "settings:\n" + "\n".join(
         f"  {f'{f.name}={f.default:g}' if isinstance(f.default, float) else f'{f.name}={f.default}':26}"
@@ -78,33 +75,5 @@ def _add_settings(command: argparse.ArgumentParser) -> None:
 
 
 def _add_frame(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--frame", type=_integer(*_FRAME_LIMITS), metavar="N",
+    command.add_argument("--frame", type=integer(*FRAME_LIMITS), metavar="N",
                          help="frame of a .blend (default: the one it was saved at)")
-
-
-def _size(text: str) -> tuple[int, int]:
-    low, high = _SIZE_LIMITS
-    match = re.fullmatch(r"(\d+)x(\d+)", text)
-    if match is None or not all(low <= int(n) <= high for n in match.groups()):
-        raise argparse.ArgumentTypeError(f"'{text}' is no size: WIDTHxHEIGHT, each {low} to {high} pixels")
-    return int(match[1]), int(match[2])
-
-
-def _integer(low: int, high: int) -> Callable[[str], int]:
-    def read(text: str) -> int:
-        if not re.fullmatch(r"[+-]?\d+", text) or not low <= int(text) <= high:
-            raise argparse.ArgumentTypeError(f"'{text}' is no whole number from {low} to {high}")
-        return int(text)
-
-    return read
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    name, equals, value = text.partition("=")
-    if not equals:
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=VALUE")
-    return name, value
-
-
-def _named(name: str) -> Callable[[str], tuple[str, str]]:
-    return lambda text: (name, text)

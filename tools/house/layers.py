@@ -39,7 +39,9 @@ LAYERS = {
     "passes": Layer((*DATA, "gpu", "passes"), ("numpy",)),
     "render": Layer((*DATA, "gpu", "passes"), ("numpy",)),
     "blender": Layer((*DATA, "render", "blender"), ("numpy", *BLENDER)),
-    "cli": Layer((*DATA, "render", "cli"), ("numpy",), deferred=("blender", "bpy")),
+    "bench": Layer((*DATA, "gpu", "passes", "render", "bench"), ("numpy",),
+                   deferred=("blender", "OpenEXR", "flip_evaluator", "matplotlib", "rich")),
+    "cli": Layer((*DATA, "render", "cli"), ("numpy",), deferred=("blender", "bpy", "bench")),
     "__main__": Layer(("cli",)),
 }
 

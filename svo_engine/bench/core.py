@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ladders and edits through the core alone, from scenes in .npz files: no Blender, no other library than the core's.
+
+A time is that of a whole frame: from a Scene to pixels on the host. Copies that make a Scene new are not in it.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ..errors import SceneError
+from ..render import Session
+from ..scene.camera import make_view
+from ..scene.types import Camera, Scene
+from ..settings import RenderSettings
+from .edits import KINDS, Edit, camera, possible
+from .progress import Lines
+from .references import Reference
+from .rungs import Rung, Shot, climb, median, repeat, row
+from .tables import Edited, Rendered, pack, stages
+
+EDIT_SAMPLES = 1  # what an edit costs is not hidden behind many samples
+
+
+def ladder_rows(session: Session, name: str, scene: Scene, reference: Reference | None, rungs: Sequence[Rung],
+                size: tuple[int, int], longest: float, lines: Lines) -> Iterator[Rendered]:
+    """Each rung in each of the three kinds of edits.KINDS; the picture is the same in all."""
+    shooter = Shooter(session, size)
+    circumstances = {"scene": name, "size": f"{size[0]}x{size[1]}", "device": session.device_info()["renderer"]}
+
+    def shoot(rung: Rung) -> Shot:
+        return shooter.shoot(KINDS["all"](scene, 0), rung.values)
+
+    for rung, shots in climb(rungs, shoot, longest, lines, name):
+        yield row(rung, shots, reference, kind="all", **circumstances)
+        if rung.values.get("time_limit"):
+            continue
+        for kind in ("light", "camera"):
+            shooter.shoot(scene, rung.values)
+            again = repeat(lambda kind=kind, rung=rung:  # type: ignore[misc]
+                           shooter.shoot(KINDS[kind](scene, 0), rung.values))
+            yield row(rung, again, reference, kind=kind, **circumstances)
+
+
+def edit_rows(session: Session, name: str, scene: Scene, rung: Rung, size: tuple[int, int],
+              lines: Lines) -> Iterator[Edited]:
+    """What each kind of edit costs after a frame of `scene` as it was, at the settings of `rung` but one sample."""
+    shooter, values, renderer = Shooter(session, size), {**rung.values, "samples": EDIT_SAMPLES}, rung.renderer
+    circumstances = {"scene": name, "size": f"{size[0]}x{size[1]}", "device": session.device_info()["renderer"],
+                     "renderer": renderer}
+    for edit_name, edit in possible(scene).items():
+        lines.step(f"{name}: {renderer}, {edit_name}")
+        numbers = iter(range(1, 1000))
+
+        def shoot(edit: Edit = edit, numbers: Iterator[int] = numbers, is_camera: bool = edit_name == "camera") -> Shot:
+            number = next(numbers)
+            shooter.shoot(scene, values)  # the frame before the edit
+            return shooter.shoot(edit(scene, number), values, camera(scene, number) if is_camera else None)
+
+        shoot()
+        shots = repeat(shoot)
+        yield Edited(**circumstances, edit=edit_name, seconds=median(shots), n_runs=len(shots),
+                     parts=pack(stages(shots[-1].parts)))
+
+
+class Shooter:
+    """Renders through a Session, and takes the time."""
+
+    def __init__(self, session: Session, size: tuple[int, int]) -> None:
+        self._session, self._size = session, size
+
+    def shoot(self, scene: Scene, values: Mapping[str, Any], through: Camera | None = None) -> Shot:
+        """One frame, through the scene's camera or another, with the settings `values` and defaults for all others."""
+        if (eye := through or scene.camera) is None:
+            raise SceneError("The scene has no camera")
+        view, settings = make_view(eye, self._size), RenderSettings(**values)
+        start = time.perf_counter()
+        *_, film = self._session.films(scene, view, settings, interval=math.inf)
+        seconds = time.perf_counter() - start
+        return Shot(seconds, film.planes["Combined"][..., :3], film.n_samples, film.stats["times_ms"],
+                    film.stats["counts"]["device bytes"])

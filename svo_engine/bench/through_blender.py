@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ladders through Blender: whole times of bpy.ops.render.render for ours and its peers, in one process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from . import references
+from .progress import Lines
+from .references import Reference
+from .rungs import Rung, Shot, climb, row
+from .tables import Rendered
+
+SEEDS = 1, 2  # of a reference's halves; renders that are timed have 0
+
+
+def scene_rows(file: Path, stored: Path | None, out: Path, ladders: Sequence[Sequence[Rung]],
+               size: tuple[int, int] | None, device: str, reference_samples: int, longest: float,
+               lines: Lines) -> Iterator[Rendered]:
+    """All ladders of one .blend against its stored reference, or one that Cycles makes first and `out` keeps."""
+    from ..blender import peers
+
+    truth = references.load(stored) if stored else None
+    with peers.opened(file, size or (truth.size if truth else None)) as scene:
+        if truth is None:
+            lines.step(f"{file.stem}: the reference, {reference_samples} samples of Cycles", reference_samples)
+            truth = make_reference(partial(peers.renderer, scene, "cycles", device), reference_samples)
+            references.save(truth, out / "references" / f"{file.stem}.npz")
+        width, height = truth.size
+        for rungs in ladders:
+            with peers.renderer(scene, rungs[0].renderer, device) as render:
+                for rung, shots in climb(rungs, partial(_shoot, render), longest, lines, file.stem):
+                    yield row(rung, shots, truth, scene=file.stem, size=f"{width}x{height}", kind="render",
+                              device=peers.device_name(device))
+
+
+def make_reference(renderer: Callable[[], Any], n_samples: int) -> Reference:
+    """Two halves with different seeds."""
+    with renderer() as render:
+        halves = [render({"samples": max(n_samples // 2, 1), "seed": seed}).picture for seed in SEEDS]
+    return references.from_halves(*halves)
+
+
+def _shoot(render: Callable[[Mapping[str, Any]], Any], rung: Rung) -> Shot:
+    done = render(rung.values)
+    stats = done.stats
+    return Shot(done.seconds, done.picture, stats.get("n_samples", rung.values.get("samples", 0)),
+                stats.get("times_ms", {}), stats.get("counts", {}).get("device bytes", 0))
