@@ -3,7 +3,7 @@
 //             tessellation and overlap change nothing.
 // Formula:    sum_i A_i x_i
 // In:         triangles, materials, Occupancy, VoxelFirst (number of a word's first voxel)
-// Out:        Sums: per voxel area, albedo, normal, covered area, emission, SUMS words in this order
+// Out:        Sums: per voxel area, albedo, normal, covered area, the voxel, emission: SUMS words
 // Invocation: one strip of columns of one triangle
 
 #include "bind/voxel_part.glsl"
@@ -14,7 +14,8 @@ layout(std430) readonly buffer VoxelFirst { uint voxel_first[]; };
 
 void visit(Strip strip, ivec3 cell)
 {
-    uvec2 address = occupancy_address(turned_back(cell, strip.shape.axis));
+    ivec3 voxel = turned_back(cell, strip.shape.axis);
+    uvec2 address = occupancy_address(voxel);
     uint word = occupancy[address.x], bit = 1u << address.y;
     if ((word & bit) == 0u)  // a touch that voxelize/mark, compiled apart, rounded otherwise
         return;
@@ -24,6 +25,7 @@ void visit(Strip strip, ivec3 cell)
     add(at + 1u, part.weight * part.albedo);
     add(at + 4u, part.weight * turned_back(part.normal, strip.shape.axis));
     add(at + 7u, part.area * abs(part.normal.z) * part.alpha);
+    sums[at + 8u] = uint(voxel.x | voxel.y << 10 | voxel.z << 20);  // the same from every writer
     if (HAS_EMISSION)
-        add(at + 8u, part.weight * part.emission / u_emission_unit);
+        add(at + 9u, part.weight * part.emission / u_emission_unit);
 }

@@ -28,8 +28,7 @@ MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Occupancy")
 ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
                   (*GEOMETRY, *MATERIALS, "StripFirst", "Occupancy", "VoxelFirst", "Sums"),
                   uniforms=(*WORK, "u_emission_unit"))
-AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Occupancy", "VoxelFirst", "Sums", "Voxels"),
-               uniforms=(*GRID, "u_emission_unit"))
+AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Sums", "Voxels"), uniforms=("u_emission_unit",))
 BLOCK_SUMS = Pass(("voxelize/block_sums.comp.glsl",), ("Values", "BlockSums"), uniforms=("u_n_values",))
 SCAN = Pass(("voxelize/scan.comp.glsl",), ("Values", "BlockSums", "Firsts", "Total"), uniforms=("u_n_values",))
 
@@ -82,13 +81,13 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
         bits["VoxelFirst"], n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
 
         has_emission = gpu_scene.emission_unit > 0
-        constants = {"HAS_EMISSION": has_emission, "SUMS": 11 if has_emission else 8}
+        constants = {"HAS_EMISSION": has_emission, "SUMS": 12 if has_emission else 9}
         sums = scratch.buffer("voxel sums", 4 * constants["SUMS"] * n_voxels, clear=True)
         unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
         device.dispatch(ACCUMULATE, n_strips, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
                         **work, **gpu_scene.materials, **bits, **unit)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
-        device.dispatch(AVERAGE, n**3 // 32, constants, Voxels=voxels, **grid.uniforms(), **bits, **unit)
+        device.dispatch(AVERAGE, n_voxels, constants, Voxels=voxels, **unit)
     return Voxels(scope, grid, occupancy, voxels, n_voxels)
 
 

@@ -179,6 +179,23 @@ def test_means_are_weighted_by_exact_areas(device):
     assert n_checked > 0.7 * len(surfels.rows)
 
 
+def test_touches_keep_the_colour_and_the_normal_of_their_surface(device):
+    """Each counts 32 units of 2^-18 at least: half a unit of a sum is 1/64 of the mean."""
+    rng = np.random.default_rng(5)
+    dust = rng.uniform(-0.9, 0.9, (200, 1, 3)) + 1e-4 * rng.uniform(-1, 1, (200, 3, 3))
+    scene = scenes.scene(scenes.Thing(mesh_of([*dust, [[-1, -1, -1], [1, 1, 1], [1, 1, -1]]])))
+    surfels = surfels_of(device, scene, N)
+    means = means_of(*in_voxels(scene, surfels))
+    n_lone = 0
+    for row, key, normal in zip(surfels.rows, surfels.keys.tolist(), surfels.normals, strict=True):
+        area, count, mean = means[tuple(key)]
+        assert np.allclose(row["albedo"], 0.8, atol=1 / 64)
+        if count == 1 and 0 < area < 2**-13:
+            n_lone += 1
+            assert np.allclose(normal, mean[3:6] / np.linalg.norm(mean[3:6]), atol=np.sqrt(3) / 32 + UNIT)
+    assert n_lone > 100
+
+
 def test_positions_lie_in_their_voxels_and_on_their_triangles(device):
     """Within the error of the mean, as above; where a surfel is one triangle's alone, on its plane."""
     scene = random_scene(4)
