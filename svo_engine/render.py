@@ -13,6 +13,7 @@ from .film import Film
 from .gpu.device import Device
 from .gpu.kept import Kept
 from .gpu.thread import GpuThread
+from .passes.albedo import albedo
 from .passes.bvh import Bvh, build_bvh, build_meshes
 from .passes.cache import LightCache, light_cache
 from .passes.debug import make_attribute, show_voxels
@@ -23,7 +24,7 @@ from .passes.octree import build_octree
 from .passes.planes import planes_for
 from .passes.raster import GBuffer, make_targets, raster
 from .passes.resolve import GpuFilm, make_film, resolve
-from .passes.upload import GpuScene, upload
+from .passes.upload import GpuScene, is_specular, upload
 from .passes.voxelize import voxelize
 from .scene.types import Scene, View
 from .settings import RenderSettings
@@ -40,7 +41,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     sums = device.profiler.reset()
     with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
-            gpu_scene = stage("upload", upload, scene)
+            gpu_scene = stage("upload", upload, scene, stage("albedo", albedo, is_specular(scene)))
         film = make_film(scope, view, planes_for(gpu_scene, settings), gpu_scene.centre_ws)
         targets = stage("targets", make_targets, view.size)
         incident = stage("incident", make_incident, view.size, gpu_scene.has_specular, "DIFFUSE_FOUND" in film.planes)

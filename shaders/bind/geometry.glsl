@@ -20,6 +20,7 @@ struct Surface {
     vec3 bitangent;         // along v, not normalised
     vec2 uv;
     uint material;
+    bool is_back;           // seen from behind: inside of what the mesh encloses
 };
 
 vec3 to_world(Instance instance, vec3 p_os)
@@ -87,7 +88,8 @@ Surface surface_at(uint instance, uint triangle, vec2 bary, vec3 wo, bool has_uv
         normals[i] = normalize(normal_to_world(instances[instance], unpack_unit(corner_normals[3u * triangle + i])));
     vec3 n = normals * weights;
     s.normal = dot(n, n) > 1e-20 ? normalize(n) : s.normal_geometric;
-    float side = dot(s.normal_geometric, wo) < 0.0 ? -1.0 : 1.0;
+    s.is_back = dot(s.normal_geometric, wo) < 0.0;
+    float side = s.is_back ? -1.0 : 1.0;
     s.lift = lift(s.position, mat3(a, b, c), normals, weights, side);
     s.normal_geometric *= side;
     s.normal *= side;

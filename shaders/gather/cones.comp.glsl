@@ -8,6 +8,7 @@
 
 #include "bind/gbuffer.glsl"
 #include "bind/incident.glsl"
+#include "bind/albedo.glsl"
 #include "bind/environment.glsl"
 #include "bind/cones.glsl"
 #include "lib/brdf.glsl"

@@ -25,14 +25,19 @@ Met met_at(Hit hit, vec3 d)
     return met;
 }
 
-// Light that a met surface reflects diffusely against a ray: lamps exactly, all else from the cache. A metal counts as
-// white as its colour: what it mirrors is taken as its share of what arrives from everywhere.
+// Irradiance of a met surface: lamps exactly, all else from the cache.
+vec3 arriving(Met met, uint sample_index, uint seed)
+{
+    vec3 E = lamps_irradiance(met.surface, sample_index, seed);
+    return met.side == NOTHING ? E : E + cache[cache_entry(INDIRECT, met.side)].rgb;
+}
+
+// Light that a met surface reflects diffusely against a ray. A metal counts as white as its colour: what it mirrors is
+// taken as its share of what arrives from everywhere.
 vec3 reflected(Met met, uint seed)
 {
-    vec3 E = lamps_irradiance(met.surface, u_sample, seed);
-    if (met.side != NOTHING)
-        E += cache[cache_entry(INDIRECT, met.side)].rgb;
-    return met.shading.base_color * (1.0 - materials[met.surface.material].transmission) / PI * E;
+    float opaque = 1.0 - materials[met.surface.material].transmission;
+    return met.shading.base_color * opaque / PI * arriving(met, u_sample, seed);
 }
 
 // All light that leaves a met surface against a diffuse ray.

@@ -50,7 +50,11 @@ void main()
     ivec2 pixel = tiled_pixel(index, u_size);
     if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
         return;
-    vec3 E_direct = vec3(0.0), E_indirect = vec3(0.0), E_found = vec3(0.0), specular = vec3(0.0);
+    vec3 E_direct = vec3(0.0), E_indirect = vec3(0.0), E_found = vec3(0.0);
+    SpecularLight specular = no_light();
+    vec3 eye, d;
+    camera_ray(vec2(pixel) + 0.5, eye, d);
+    float to_surface = 0.0;
     Seen seen = seen_at(pixel, HAS_TEXTURES);
     if (seen.hit) {
         Surface s = seen.surface;
@@ -58,12 +62,15 @@ void main()
         E_direct = lamps_irradiance(s, u_sample, seed);
         if (HAS_INDIRECT)
             E_indirect = diffuse_light(s, seed, E_found);
+        to_surface = distance(eye, s.position);
         if (HAS_SPECULAR)
-            specular = reflected_light(s, seen.shading, seen.wo, hash(seed + 3u));
+            specular = specular_light(s, seen.shading, seen.wo, hash(seed + 3u));
     }
     arrive(pixel, INCIDENT_DIFFUSE_DIRECT, vec4(E_direct, 0.0));
     arrive(pixel, INCIDENT_DIFFUSE_INDIRECT, vec4(E_indirect, 0.0));
     arrive(pixel, INCIDENT_DIFFUSE_FOUND, vec4(E_found, 0.0));
-    arrive(pixel, INCIDENT_GLOSSY_DIRECT, vec4(0.0));
-    arrive(pixel, INCIDENT_GLOSSY_INDIRECT, vec4(specular, 0.0));
+    arrive(pixel, INCIDENT_GLOSSY_DIRECT, vec4(specular.glossy_direct, 0.0));
+    arrive(pixel, INCIDENT_GLOSSY_INDIRECT, vec4(specular.glossy_indirect, apartness(to_surface, specular.distance)));
+    arrive(pixel, INCIDENT_TRANSMISSION_DIRECT, vec4(specular.transmission_direct, 0.0));
+    arrive(pixel, INCIDENT_TRANSMISSION_INDIRECT, vec4(specular.transmission_indirect, 0.0));
 }

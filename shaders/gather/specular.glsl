@@ -1,56 +1,141 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose: the light that a surface mirrors towards the eye, followed from mirror to mirror.
+// Purpose: light that a surface reflects or lets through without spreading it as its ground does: one path, followed through
+//          mirrors and glass. What it meets sends out the diffuse light of the cache, and goes on with its own mirrors.
 
 #include "bind/environment.glsl"
+#include "bind/principled.glsl"
 #include "gather/met.glsl"
-#include "lib/brdf.glsl"
+#include "lib/sequence.glsl"
 
-const int MAX_MIRRORS = 4;  // reflections of reflections
+const int N_VERTICES = 12;  // of a path, the pixel's own included
+const float ROUGH = 0.25;   // alpha from which a met surface mirrors what arrives from everywhere, not what one ray finds
 
-vec3 reflectance_of(uint material, Shading shading)
+// Radiance towards the eye. Direct: straight from lights; distance: metres that the ray went, INFINITE to the world.
+struct SpecularLight {
+    vec3 glossy_direct;
+    vec3 glossy_indirect;
+    vec3 transmission_direct;
+    vec3 transmission_indirect;
+    float distance;
+};
+
+SpecularLight no_light()
 {
-    Material m = materials[material];
-    return mix(f0_of_ior(m.ior) * 2.0 * m.specular_level * m.specular_tint, shading.base_color, shading.metallic);
+    return SpecularLight(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
 }
 
-// Lamps in a microfacet surface, without what a reflection ray would find.
-vec3 specular_lamps(Surface s, vec3 wo, vec3 f0, float alpha, uint seed)
+struct Vertex {
+    Surface surface;
+    Bsdf bsdf;
+    mat3 frame;
+    vec3 wo;  // in that frame
+};
+
+Vertex vertex_at(Surface s, Shading shading, vec3 wo)
 {
+    mat3 frame = frame_of(s.normal);
+    return Vertex(s, principled(materials[s.material], shading, dot(s.normal, wo), s.is_back), frame, wo * frame);
+}
+
+// Light that is drawn on one side of the surface and leaves towards wo.
+vec3 drawn_light(Vertex v, bool is_through, uint index, uint seed)
+{
+    Surface s = v.surface;
     vec3 L = vec3(0.0);
-    float NoV = dot(s.normal, wo);
+    if (v.bsdf.alpha <= SMOOTH || (is_through && !(v.bsdf.transmission != vec3(0.0) && is_bending(v.bsdf))))
+        return L;
+    if (is_through)
+        s.normal = -s.normal, s.normal_geometric = -s.normal_geometric, s.lift = vec3(0.0);
     for (int k = 0; k < n_draws(); k++) {
-        LightDraw light = draw_light(k, s, u_sample, seed);
-        float NoL = dot(s.normal, light.wi);
-        if (NoL > 0.0 && light.E_perp != vec3(0.0)) {
-            vec3 h = normalize(light.wi + wo);
-            L += NoL * light.E_perp * smith_brdf(f0, alpha, dot(s.normal, h), NoV, NoL, dot(wo, h));
-        }
+        LightDraw draw = draw_light(k, s, index, seed);
+        if (draw.E_perp == vec3(0.0))
+            continue;
+        float pdf;
+        vec3 f = evaluate_specular(v.bsdf, v.wo, draw.wi * v.frame, pdf);
+        L += f * draw.E_perp * balance(draw.pdf, pdf);
     }
     return L;
 }
 
-// Reflected light by one ray, followed from mirror to mirror while the surfaces stay smooth.
-vec3 reflected_light(Surface s, Shading shading, vec3 wo, uint seed)
+// Emission that a ray finds: of lamps, of the surface that it hits, or of the world.
+vec3 found_light(Vertex v, vec3 d, bool is_hit, Hit hit, Met met, float pdf)
 {
-    vec3 beta = vec3(1.0), L = vec3(0.0);
-    for (int depth = 0; depth < MAX_MIRRORS; depth++) {
-        vec3 f0 = reflectance_of(s.material, shading);
-        float alpha = max(shading.roughness * shading.roughness, 1e-4);
-        if (f0 == vec3(0.0))
-            break;
-        L += beta * specular_lamps(s, wo, f0, alpha, seed);
-        vec3 weight, d = sample_reflection(s.normal, wo, f0, alpha, r2_point(u_sample, hash(seed + 7u)), weight);
-        if (dot(d, s.normal_geometric) <= 0.0)
-            break;
-        beta *= weight;
-        Hit hit;
-        seed = hash(seed);
-        if (!trace_closest(offset_origin(s.position, s.normal_geometric, d), d, INFINITE, hash(seed + u_sample), hit))
-            return L + beta * world_radiance(d, 0.0);
-        Met met = met_at(hit, d);
-        s = met.surface, shading = met.shading, wo = -d;
-        L += beta * (shading.metallic < 1.0 || depth + 1 == MAX_MIRRORS ? leaving(met, seed) * (1.0 - shading.metallic)
-                                                                        : shading.emission);
-    }
+    vec3 L = lamps_on_ray(v.surface, d, hit.t, pdf);
+    if (!is_hit)
+        return L + world_radiance(d, 0.0) * world_weight(v.surface, d, pdf);
+    if (met.shading.emission != vec3(0.0))
+        L += met.shading.emission * emitter_weight(v.surface, d, hit, pdf);
     return L;
+}
+
+// What a path finds: `direct` along its first ray, `indirect` after it.
+struct Found {
+    vec3 direct;
+    vec3 indirect;
+    bool is_through;  // the first ray
+    float distance;
+};
+
+// One random path from v on. Each vertex reflects or lets through, and goes on with its albedo as probability.
+Found follow(Vertex v, uint seed)
+{
+    Found found = Found(vec3(0.0), vec3(0.0), false, INFINITE);
+    vec3 beta = vec3(1.0);
+    for (int n = 1; n < N_VERTICES; n++) {
+        seed = hash(seed);
+        uint index = shuffled(u_sample, seed);
+        vec2 chances = r2_point(shuffled(u_sample, seed + 1u), seed + 1u);
+        Drawn drawn = sample_specular(v.bsdf, v.wo, r2_point(index, seed + 2u), chances.x);
+        vec3 d = v.frame * drawn.wi;
+        beta *= drawn.weight;
+        if (n == 1)
+            found.is_through = drawn.is_through;
+        if (beta == vec3(0.0) || (dot(d, v.surface.normal_geometric) < 0.0) != drawn.is_through)
+            break;
+        Hit hit;
+        Met met;
+        vec3 o = offset_origin(v.surface.position, v.surface.normal_geometric, d);
+        bool is_hit = trace_closest(o, d, INFINITE, hash(seed + u_sample), hit);
+        if (is_hit)
+            met = met_at(hit, d);
+        vec3 L = beta * found_light(v, d, is_hit, hit, met, drawn.pdf);
+        if (n == 1)
+            found.direct = L, found.distance = hit.t;
+        else
+            found.indirect += L;
+        if (!is_hit)
+            break;
+        v = vertex_at(met.surface, met.shading, -d);
+        vec3 albedo = v.bsdf.glossy + v.bsdf.transmission;
+        bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.transmission == vec3(0.0));
+        vec3 ending = v.bsdf.diffuse + (is_last ? v.bsdf.glossy : vec3(0.0));
+        if (ending != vec3(0.0))
+            found.indirect += beta * ending / PI * arriving(met, index, seed);
+        float chance = min(max(albedo.r, max(albedo.g, albedo.b)), 1.0);
+        if (is_last || chances.y >= chance)
+            break;
+        beta /= chance;
+        found.indirect += beta * (drawn_light(v, false, index, seed + 3u) + drawn_light(v, true, index, seed + 4u));
+    }
+    return found;
+}
+
+SpecularLight specular_light(Surface s, Shading shading, vec3 wo, uint seed)
+{
+    SpecularLight light = no_light();
+    Vertex v = vertex_at(s, shading, wo);
+    if (v.bsdf.glossy + v.bsdf.transmission == vec3(0.0))
+        return light;
+    light.glossy_direct = drawn_light(v, false, u_sample, seed);
+    light.transmission_direct = drawn_light(v, true, u_sample, hash(seed + 1u));
+    Found found = follow(v, hash(seed + 2u));
+    if (found.is_through) {
+        light.transmission_direct += found.direct;
+        light.transmission_indirect = found.indirect;
+    } else {
+        light.glossy_direct += found.direct;
+        light.glossy_indirect = found.indirect;
+        light.distance = found.distance;
+    }
+    return light;
 }

@@ -9,7 +9,7 @@
 #include "bind/gbuffer.glsl"
 #include "bind/environment.glsl"
 #include "bind/incident.glsl"
-#include "lib/brdf.glsl"
+#include "bind/principled.glsl"
 
 const bool HAS_TEXTURES = false;
 const bool HAS_SPECULAR = true;
@@ -23,28 +23,10 @@ uniform uint u_end;
 uniform bool u_film_transparent;
 uniform bool u_is_first;  // of the samples
 
-struct Albedo {
-    vec3 diffuse;
-    vec3 glossy;
-    vec3 transmission;
-};
-
-// Diffuse: the base colour's part that is neither metal nor glass, under a layer that reflects the rest.
-Albedo albedo_of(Seen seen)
+Bsdf bsdf_of(Seen seen)
 {
-    Material m = materials[seen.surface.material];
-    vec3 base = seen.shading.base_color;
-    float dielectric = 1.0 - seen.shading.metallic;
-    Albedo albedo = Albedo(base * (dielectric * (1.0 - m.transmission)), vec3(0.0), base * (dielectric * m.transmission));
-    if (!HAS_SPECULAR)
-        return albedo;
-    vec2 ab = environment_brdf(seen.shading.roughness, dot(seen.surface.normal, seen.wo));
-    float f0 = dielectric_f0(m.ior, m.specular_level), reflected = f0 == 0.0 ? 0.0 : f0 * ab.x + ab.y;
-    albedo.diffuse *= max(1.0 - reflected, 0.0);
-    albedo.transmission *= max(1.0 - reflected, 0.0);
-    vec3 f = mix(f0 * m.specular_tint, base, seen.shading.metallic);
-    albedo.glossy = f == vec3(0.0) ? f : f * ab.x + ab.y;
-    return albedo;
+    Surface s = seen.surface;
+    return principled(materials[s.material], seen.shading, dot(s.normal, seen.wo), s.is_back);
 }
 
 void add(ivec2 pixel, int plane, vec4 value)
@@ -112,11 +94,12 @@ void main()
         add(pixel, PLANE_COMBINED, u_film_transparent ? vec4(0.0) : vec4(world, 1.0));
         return;
     }
-    Albedo albedo = albedo_of(seen);
-    vec3 L = seen.shading.emission + add_diffuse(pixel, albedo.diffuse);
+    vec3 L = seen.shading.emission;
     if (HAS_SPECULAR) {
-        L += add_glossy(pixel, albedo.glossy, seen.shading.roughness * seen.shading.roughness);
-        L += add_transmission(pixel, albedo.transmission);
+        Bsdf b = bsdf_of(seen);
+        L += add_diffuse(pixel, b.diffuse) + add_glossy(pixel, b.glossy, b.alpha) + add_transmission(pixel, b.transmission);
+    } else {
+        L += add_diffuse(pixel, seen.shading.base_color);
     }
     add(pixel, PLANE_EMISSION, vec4(seen.shading.emission, 0.0));
     add(pixel, PLANE_COMBINED, vec4(L, 1.0));

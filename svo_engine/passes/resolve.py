@@ -18,8 +18,9 @@ from .raster import GBuffer
 from .upload import GpuScene
 from .voxelize import GEOMETRY, MATERIALS
 
-ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS), textures=("u_visibility", "u_env"),
-                  images=("u_film", "u_incident"), uniforms=(*CAMERA, *WORLD, "u_film_transparent", "u_is_first"))
+ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS),
+                  textures=("u_visibility", "u_env", "u_albedo"), images=("u_film", "u_incident"),
+                  uniforms=(*CAMERA, *WORLD, "u_film_transparent", "u_is_first"))
 
 # What bind/film.glsl knows, in the order of layers
 PLANES = ("COMBINED", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_FOUND", "DIFFUSE_COLOR", "GLOSSY_DIRECT",
@@ -69,10 +70,11 @@ def make_film(scope: GpuScope, view: View, planes: tuple[str, ...], centre: np.n
 
 def resolve(device: Device, gpu_scene: GpuScene, gbuffer: GBuffer, incident: Incident, film: GpuFilm) -> None:
     """Add one sample to `film`."""
-    constants = {"HAS_TEXTURES": gpu_scene.has_textures, "HAS_SPECULAR": gpu_scene.has_specular, **film.constants(),
+    constants = {"HAS_TEXTURES": gpu_scene.has_textures, "HAS_SPECULAR": gpu_scene.has_specular,
+                 "HAS_GLASS": gpu_scene.has_glass, **film.constants(),
                  **incident.constants()}
     device.dispatch(ACCUMULATE, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials,
                     **gpu_scene.world(), **gbuffer.uniforms(), u_film=film.sums,
-                    u_incident=incident.layers,
+                    u_incident=incident.layers, u_albedo=gpu_scene.albedo,
                     u_film_transparent=gpu_scene.scene.film_transparent, u_is_first=film.n_samples == 0)
     film.n_samples += 1

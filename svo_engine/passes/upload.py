@@ -13,6 +13,7 @@ from ..gpu.device import Device
 from ..gpu.scope import GpuScope
 from ..scene import layouts
 from ..scene.types import Image, Light, Material, Scene, Texture
+from .albedo import Albedo, albedo
 
 
 @dataclass(frozen=True)
@@ -39,9 +40,11 @@ class GpuScene:
     materials: dict[str, Any]
     lights: Any
     env: Any
+    albedo: Any
     has_textures: bool
     has_alpha: bool
     has_specular: bool
+    has_glass: bool
     emission_unit: float
 
     @property
@@ -61,8 +64,17 @@ class GpuScene:
                 "u_has_env": world.image >= 0}
 
 
-def upload(device: Device, scene: Scene) -> GpuScene:
-    """Copy `scene` to the device. GpuError names the buffer that does not fit."""
+def is_specular(scene: Scene) -> bool:
+    """Whether any material does more than send out and reflect light diffusely."""
+    return any(m.metallic > 0 or m.metallic_texture >= 0 or m.specular_level > 0 or m.transmission > 0
+               for m in scene.materials)
+
+
+def upload(device: Device, scene: Scene, table: Albedo | None = None) -> GpuScene:
+    """Copy `scene` to the device, beside the `table` of the surfaces that reflect.
+
+    GpuError names the buffer that does not fit.
+    """
     scope = device.scope()
     low, high = scene.bounds()
     centre = (low + high) / 2
@@ -77,9 +89,11 @@ def upload(device: Device, scene: Scene) -> GpuScene:
     return GpuScene(
         scope, scene, centre, float((high - low).max()), draws, n_work, geometry, materials,
         scope.buffer("lights", light_rows(scene.lights, centre)), _environment(scope, scene),
+        albedo=(table or albedo(device, is_specular(scene))).table,
         has_textures=any(_texture_slots(m) for m in scene.materials),
         has_alpha=any(m.alpha < 1 or m.alpha_texture >= 0 for m in scene.materials),
-        has_specular=any(m.metallic > 0 or m.metallic_texture >= 0 or m.specular_level > 0 for m in scene.materials),
+        has_specular=is_specular(scene),
+        has_glass=any(m.transmission > 0 for m in scene.materials),
         emission_unit=max((_emission_bound(scene, m) for m in scene.materials), default=0.0))
 
 

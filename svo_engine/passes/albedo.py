@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Directional albedos of microfacet surfaces: a table for every scene. See shaders/bind/albedo.glsl."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ..gpu.device import Device
+from ..gpu.passes import Pass
+from ..gpu.scope import GpuScope
+
+N, LAYERS = 32, 18
+
+INTEGRATE = Pass(("albedo/integrate.comp.glsl",), images=("u_table",))
+
+
+@dataclass(frozen=True, eq=False)
+class Albedo:
+    """table: LAYERS pictures of N by N RGBA f4; one texel for scenes where nothing reflects."""
+
+    scope: GpuScope
+    table: Any
+
+
+def albedo(device: Device, is_needed: bool) -> Albedo:
+    """The table, integrated on the device."""
+    scope = device.scope()
+    table = scope.layers("albedo", (N, N) if is_needed else (1, 1), LAYERS if is_needed else 1, is_smooth=True)
+    if is_needed:
+        device.dispatch(INTEGRATE, LAYERS * N * N, u_table=table)
+    return Albedo(scope, table)
