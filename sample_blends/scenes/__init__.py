@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from . import colonnade, cornell, emissive_only, glossy_steps, outdoor_world, two_rooms
+from . import colonnade, cornell, emissive_only, glass, glossy_steps, outdoor_world, two_rooms
 
 SCENES: dict[str, Callable[[], None]] = {
     "cornell_suzanne_point": cornell.with_point_lamp,
@@ -13,6 +13,7 @@ SCENES: dict[str, Callable[[], None]] = {
     "two_rooms": two_rooms.build,
     "colonnade": colonnade.build,
     "glossy_steps": glossy_steps.build,
+    "glass": glass.build,
     "emissive_only": emissive_only.build,
     "outdoor_world": outdoor_world.build,
 }

@@ -18,13 +18,14 @@ Point = tuple[float, float, float]
 
 
 def material(name: str, color: Color, *, roughness: float = 1.0, specular: float = 0.0,
-             metallic: float = 0.0) -> Material:
+             metallic: float = 0.0, transmission: float = 0.0) -> Material:
     """A Principled BSDF; diffuse as long as nothing else is asked for. `specular` 0.5 is ordinary varnish or glass."""
     shader, made = _principled(name)
     shader.inputs["Base Color"].default_value = (*color, 1.0)
     shader.inputs["Roughness"].default_value = roughness
     shader.inputs["Specular IOR Level"].default_value = specular
     shader.inputs["Metallic"].default_value = metallic
+    shader.inputs["Transmission Weight"].default_value = transmission
     made.diffuse_color = (*color, 1.0)
     return made
 
