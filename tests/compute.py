@@ -48,7 +48,7 @@ def evaluate(device: Device, result: str, expression: str, includes: Sequence[st
             if name in program:
                 program[name].value = tuple(value.T.ravel().tolist()) if isinstance(value, np.ndarray) else value
         program["u_n"].value = n
-        program.run(-(-n // 64))
+        program.run(-(-n // 32))
         device.ctx.memory_barrier()
         values = np.frombuffer(out.read(), base).reshape(n, 4)[:, :width].copy()
     program.release()
@@ -68,7 +68,7 @@ def _source(result: str, base: str, expression: str, includes: Sequence[str], pr
     width = int(result[-1]) if result[-1].isdigit() else 1
     widened = widened or f"{kind}4({expression}{', 0' * (4 - width)})"
     lines = [
-        *(f'#include "{path}"' for path in includes), prelude, "layout(local_size_x = 64) in;", *declared,
+        *(f'#include "{path}"' for path in includes), prelude, "layout(local_size_x = 32) in;", *declared,
         f"layout(std430) writeonly buffer Result {{ {kind}4 result[]; }};", "uniform uint u_n;", "void main()", "{",
         "    uint i_row = gl_GlobalInvocationID.x;", "    if (i_row >= u_n)", "        return;", *read,
         f"    result[i_row] = {widened};", "}"]

@@ -116,18 +116,25 @@ Ray enter_instance(BvhInstance instance, vec3 o, vec3 d)
     return make_ray(o_os, d_os, instance.extent);
 }
 
-// References yet to visit: BVH_NONE lies below those of the tree of instances, and below those of an instance.
-uint trace_stack[STACK];
+// References yet to visit: BVH_NONE lies below those of the tree of instances, and below those of an instance. In shared
+// memory, each invocation's next to the other ones': where it is private, an H100 gathers in three times the time.
+layout(local_size_x = 32) in;
+
+const int GROUP = 32;  // invocations of a workgroup that traces: its stacks leave room for many groups at once
+
+shared uint trace_stack[STACK * GROUP];
 int trace_top;
 
 void push(uint reference)
 {
-    trace_stack[trace_top++] = reference;
+    trace_stack[trace_top] = reference;
+    trace_top += GROUP;
 }
 
 uint pop()
 {
-    return trace_stack[--trace_top];
+    trace_top -= GROUP;
+    return trace_stack[trace_top];
 }
 
 // What comes after a node: the nearer child that the ray meets, while the other one waits.
@@ -151,7 +158,7 @@ bool trace(vec3 o, vec3 d, float t_max, uint seed, const bool any_will_do, out H
 {
     hit = Hit(t_max, BVH_NONE, 0u, vec2(0.0));
     Ray ray = make_ray(o, d, u_bvh_extent), ray_ws = ray;
-    trace_top = 0;
+    trace_top = int(gl_LocalInvocationIndex);
     push(BVH_NONE);
     uint reference = u_bvh_root, instance = BVH_NONE;
     while (true) {

@@ -10,8 +10,6 @@
 
 const int N_POINTS = 4;
 
-layout(local_size_x = 64) in;
-
 uniform uint u_first;
 uniform uint u_end;
 

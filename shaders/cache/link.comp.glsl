@@ -12,8 +12,6 @@
 
 const int N_RAYS = 16;
 
-layout(local_size_x = 64) in;
-
 layout(std430) writeonly buffer Links { uint links[]; };  // N_RAYS a side: the first of all sides, the second of all ...
 
 uniform uint u_first;

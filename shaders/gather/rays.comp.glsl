@@ -14,8 +14,6 @@ const bool HAS_INDIRECT = true;   // anything that a ray could find
 const bool HAS_SPECULAR = true;   // any material that reflects
 const int N_RAYS = 4;             // diffuse rays
 
-layout(local_size_x = 64) in;
-
 uniform uint u_first;
 uniform uint u_end;
 uniform uint u_seed;
