@@ -16,7 +16,7 @@ from .gpu.thread import GpuThread
 from .passes.albedo import albedo
 from .passes.bvh import Bvh, build_bvh, build_meshes
 from .passes.cache import LightCache, light_cache
-from .passes.debug import make_attribute, show_voxels
+from .passes.debug import make_attribute, show_surfels, show_voxels
 from .passes.denoise import make_pictures, read_picture
 from .passes.gather import Incident, gather_cones, gather_rays, make_incident
 from .passes.light import injection_of, light
@@ -46,7 +46,9 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
         targets = stage("targets", make_targets, view.size)
         incident = stage("incident", make_incident, view.size, gpu_scene.has_specular, "DIFFUSE_FOUND" in film.planes)
         gather, show = None, None
-        if settings.view != "combined":
+        if settings.view.startswith("cache"):
+            show = _cache_view(stage, device, gpu_scene, settings, film)
+        elif settings.view != "combined":
             show = _voxel_view(stage, device, gpu_scene, view, settings)
         elif settings.method == "cones":
             gather = _cones(stage, device, gpu_scene, view, settings)
@@ -100,6 +102,14 @@ def _fitting_cache(stage: Stage, gpu_scene: GpuScene, bvh: Bvh, settings: Render
                 raise
             limits.append(f"The light cache has {n // 2} voxels a side instead of {n}: {error}")
             n //= 2
+
+
+def _cache_view(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings,
+                film: GpuFilm) -> Callable[[GBuffer, GpuFilm], None]:
+    """The surfels of the light cache, drawn as they are."""
+    bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
+    cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, settings, film.limits)
+    return lambda gbuffer, film: show_surfels(device, gpu_scene, cache, gbuffer, settings, film)
 
 
 def _voxel_view(stage: Stage, device: Device, gpu_scene: GpuScene, view: View,

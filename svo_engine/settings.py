@@ -35,6 +35,8 @@ CACHE_RESOLUTIONS = tuple((str(n), f"{n}\u00b3", f"{n} voxels along the longest 
 RESOLUTIONS = CACHE_RESOLUTIONS[:4]
 VIEWS = (
     ("combined", "Combined", "The picture"),
+    ("cache_albedo", "Light Cache Albedo", "The surfels that hold the light, showing the colour of their surfaces"),
+    ("cache", "Light Cache", "The surfels that hold the light, showing what they send out"),
     ("voxel_albedo", "Voxel Albedo", "The voxels themselves, showing the colour of their surfaces"),
     ("voxel_normal", "Voxel Normal", "The voxels themselves, showing the direction of their surfaces as XYZ = RGB"),
     ("voxel_radiance", "Voxel Radiance", "The voxels themselves, showing the light that they send out"),

@@ -111,7 +111,7 @@ class SVO_PT_voxel_grid(_GroupPanel, bpy.types.Panel):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         svo = context.scene.svo
-        return super().poll(context) and (svo.method == "cones" or svo.view != "combined")
+        return super().poll(context) and (svo.method == "cones" or svo.view.startswith("voxel"))
 
 
 class SVO_PT_cones(_GroupPanel, bpy.types.Panel):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The voxel views: through the middle of every column, the first voxel that numpy finds there too."""
+"""The voxel views: through the middle of every column, the first voxel that numpy finds there too. The views of the
+light cache: what is known of a lit floor.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +13,7 @@ from svo_engine.scene.types import Camera, Material
 from tests import scenes
 from tests.on_gpu import picture_of
 from tests.oracle import slow_voxels
+from tests.rays import above
 
 N = 32
 BALL = scenes.sphere("Ball", 1.0, 12)
@@ -103,3 +106,27 @@ def test_a_level_beyond_the_last_is_the_last(session, ball_from_above):
 def test_voxels_are_seen_from_inside_the_grid(session):
     scene = scenes.cornell(camera=Camera("Camera", scenes.look((0, 0, 1), (0.3, 1, 0.8)), (32, 24), lens=20.0))
     assert picture_of(session, scene, view="voxel_normal")[..., 3].min() == 1
+
+
+def lit_floor():
+    """A red floor under the sun that fills the picture, and a roof that shadows its left half."""
+    roof = scenes.Thing(scenes.quad("Roof", (-2, -2, 5), (2, 0, 0), (0, 4, 0)), scenes.BLACK)
+    return scenes.scene(scenes.Thing(scenes.floor(4.0), scenes.RED), roof, camera=above(),
+                        lights=(scenes.lamp("SUN", (0, 0, 1), emitted=np.pi),))
+
+
+def test_surfels_show_the_light_that_they_send_out(session):
+    """L = rho / pi E on one side, nothing on the other; a column of pixels apart, as surfels are wider than pixels."""
+    picture = picture_of(session, lit_floor(), view="cache", cache_resolution="64", bounces=0)
+    assert np.allclose(picture[:, 18:], (0.8, 0.1, 0.1, 1), atol=1e-3)
+    assert np.allclose(picture[:, :14], (0, 0, 0, 1))
+
+
+def test_surfels_show_their_albedo(session):
+    assert np.allclose(picture_of(session, lit_floor(), view="cache_albedo"), (0.8, 0.1, 0.1, 1), atol=1e-3)
+
+
+def test_surfels_show_nothing_where_there_is_nothing(session):
+    far = scenes.scene(scenes.Thing(scenes.floor(0.5)), camera=above())
+    alpha = picture_of(session, far, view="cache_albedo")[..., 3]
+    assert 0 < alpha.mean() < 0.2 and set(np.unique(alpha)) == {0, 1}

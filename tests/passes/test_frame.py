@@ -11,6 +11,7 @@ import pytest
 from svo_engine.gpu import device as device_module
 from svo_engine.render import Session
 from svo_engine.scene.types import Camera, Material, Scene, World
+from svo_engine.settings import VIEWS
 from tests import scenes
 from tests.on_gpu import film_of, picture_of
 
@@ -152,6 +153,6 @@ def test_an_empty_scene_without_world_is_black_or_clear(session):
     assert not picture_of(session, scenes.scene(camera=CAMERA, film_transparent=True)).any()
 
 
-@pytest.mark.parametrize("view", ["voxel_albedo", "voxel_normal", "voxel_radiance", "voxel_coverage"])
+@pytest.mark.parametrize("view", [name for name, *_ in VIEWS if name != "combined"])
 def test_every_view_of_an_empty_scene(session, view):
     assert not picture_of(session, scenes.scene(camera=CAMERA), view=view)[..., :3].any()
