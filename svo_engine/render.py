@@ -83,7 +83,8 @@ def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSet
     bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
     cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, settings, film.limits)
     octree = cache.octree
-    device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels})
+    device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels,
+                                   "octree bytes": octree.n_bytes, "dense bytes": octree.n_dense_bytes})
     return lambda gbuffer, incident, sample: gather_rays(device, gpu_scene, cache, bvh, gbuffer, incident,
                                                          settings, sample)
 

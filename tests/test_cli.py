@@ -68,6 +68,19 @@ def test_render_without_blender(root, saved, tmp_path):
     assert PillowImage.open(tmp_path / "out/scene.png").size == (24, 16)
 
 
+def test_rays_tell_what_the_octree_takes_and_what_a_dense_grid_would(saved, tmp_path, capsys):
+    quick = ("--size", "16x12", "--samples", "1", "--set", "cache_resolution=32", "--set", "cache_rays=1")
+    assert main(["render", str(saved), "--out", str(tmp_path / "a.png"), "--stats", str(tmp_path / "stats.json"),
+                 *quick]) == 0
+    counts = json.loads((tmp_path / "stats.json").read_text())["counts"]
+    n_bytes, n_dense = counts["octree bytes"], counts["dense bytes"]
+    assert n_dense == 3 * 32**3 * 48
+    assert 48 * counts["surfels"] < n_bytes < 100 * counts["surfels"] < n_dense / 10
+    rows = {line[2:].split("  ")[0]: line.split()[-2:] for line in capsys.readouterr().out.splitlines()[1:]}
+    assert rows["octree size"] == [f"{n_bytes / 2**20:.1f}", "MiB"]
+    assert rows["dense size"] == [f"{n_dense / 2**20:.1f}", "MiB"]
+
+
 def test_picture_is_that_of_the_core(saved, tmp_path):
     assert main(["render", str(saved), "--out", str(tmp_path / "a.exr"), "--size", "30x20", *QUICK]) == 0
     scene, session = store.load(saved), Session()

@@ -173,7 +173,9 @@ def _warn(sentences: Sequence[str]) -> None:
 def _print_render(pictures: list[Path], stats: dict[str, Any]) -> None:
     print(*pictures, sep="\n")
     times = {stage: f"{ms:10.1f} ms" for stage, ms in stats["times_ms"].items()}
-    _print_rows({"device": stats["device"], **times, "all": f"{stats['seconds'] * 1000:10.1f} ms"})
+    sizes = {name.replace("bytes", "size"): f"{n / 2**20:10.1f} MiB" for name, n in stats["counts"].items()
+             if name.endswith(" bytes")}
+    _print_rows({"device": stats["device"], **times, "all": f"{stats['seconds'] * 1000:10.1f} ms", **sizes})
 
 
 def _print_rows(rows: Mapping[str, object]) -> None:

@@ -39,6 +39,16 @@ class Octree:
     n_nodes: int
     n_surfels: int
 
+    @property
+    def n_bytes(self) -> int:
+        """Bytes on the device: masks, counts, surfels."""
+        return self.scope.n_bytes
+
+    @property
+    def n_dense_bytes(self) -> int:
+        """Bytes that a dense grid would take to hold the same: in every voxel a surfel for each of the three axes."""
+        return 3 * self.grid.n**3 * layouts.dtype(layouts.SURFEL).itemsize
+
     def resources(self) -> dict[str, Any]:
         """What a pass that includes bind/octree.glsl needs."""
         return {"Octree": self.words, **tree_sizes(self.grid.n, self.n_nodes), **self.grid.uniforms()}

@@ -97,7 +97,7 @@ def test_triangles_of_a_thousandth_of_a_voxel(device):
     found = voxels_of(device, scenes.scene(scenes.Thing(mesh_of([*triangles, *frame_of_bounds()]))))
     check_occupancy(found)
     assert len(found.cells) >= 190
-    assert np.allclose(unpacked(found.rows)[0], 0.8, atol=1 / 64 + 0.51 / 255), "a touch keeps the colour of its surface"
+    assert np.allclose(unpacked(found.rows)[0], 0.8, atol=1 / 64 + 0.51 / 255), "touches keep the colour"
 
 
 @pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6])

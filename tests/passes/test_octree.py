@@ -20,6 +20,7 @@ from tests.on_gpu import film_of
 from tests.oracle import slow_voxels
 from tests.rays import RAYS, TURN
 from tests.surfels import SURFEL, Surfels, surfels_of
+from tools import memory
 
 N = 32
 TOUCH = 1e-4  # voxels: shaders/lib/triangle_box.glsl
@@ -278,6 +279,18 @@ def test_memory_grows_with_the_surface(device):
     assert 14 < len(large.rows) / len(small.rows) < 18
     assert 14 < large.n_bytes / small.n_bytes < 18
     assert large.n_bytes < 0.03 * 256**3 * SURFEL.itemsize
+
+
+def test_the_page_of_sizes_has_a_row_for_each_resolution(device, monkeypatch):
+    small, large = memory.sizes(device, scenes.cornell(), (32, 64))
+    assert small.n_dense_bytes == 3 * 32**3 * SURFEL.itemsize
+    assert SURFEL.itemsize * small.n_surfels < small.n_bytes < small.n_dense_bytes / 10
+    head, row = memory.lines([small, large])
+    assert head.startswith(f"| 32 | {small.n_nodes:,} | {small.n_surfels:,} |") and head.endswith("|  |")
+    assert 1.9 < float(row.split("|")[-2]) < 2.4
+    monkeypatch.setattr(device, "limits", {**device.limits, "GL_MAX_SHADER_STORAGE_BLOCK_SIZE": 300_000})
+    (last,) = memory.sizes(device, scenes.cornell(), (64,))
+    assert "does not fit: Buffer 'surfel sums'" in next(memory.lines([last]))
 
 
 def test_an_empty_scene_has_no_surfels(device):
