@@ -15,7 +15,7 @@
 const bool IS_GLOSSY = false;
 const float NORMAL_POWER = 64.0;
 const float PLANE_PIXELS = 1.0;    // z: distance from the surface's plane, in pixels of that depth
-const float BLUR = 1.0;            // a, as a part of alpha
+const float BLUR = 3.0;            // a over alpha: GGX sends 7 of 10 reflections into that angle
 
 layout(local_size_x = 64) in;
 
