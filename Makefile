@@ -6,9 +6,12 @@ RUN := $(VENV)/bin/python
 SCENE ?= sample_blends/cornell_suzanne_point.blend
 OUT ?= out
 SIZE ?= 400x300
+BENCH ?= docs/benchmarks
+BENCH_SCENES ?= $(addprefix sample_blends/,cornell_suzanne_point.blend cornell_suzanne_area.blend two_rooms.blend \
+	colonnade.blend glossy_steps.blend)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup render test lint package clean
+.PHONY: help setup render bench test lint package clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z]+):.*## (.*)/\1|\2/p' Makefile | while IFS='|' read -r name text; do printf 'make %-9s%s\n' "$$name" "$$text"; done
@@ -19,6 +22,11 @@ setup: $(VENV)/.libraries ## Install everything into .venv, and the system libra
 render: $(VENV)/.libraries ## Render a sample scene; SCENE=FILE.blend, OUT=FOLDER and SIZE=WxH choose others
 	@mkdir -p $(OUT)
 	$(RUN) -m svo_engine render $(SCENE) --out $(OUT)/ --size $(SIZE)
+
+bench: $(VENV)/.libraries ## Measure run time against error beside Cycles; BENCH=FOLDER and BENCH_SCENES="A.blend B.blend"
+	$(RUN) -m svo_engine bench --scenes $(BENCH_SCENES) --size $(SIZE) --out $(BENCH)/data/cpu
+	$(RUN) -m svo_engine bench --thesis --scaling --out $(BENCH)/data/cpu
+	$(RUN) -m svo_engine bench --report $(BENCH)
 
 test: lint $(VENV)/.libraries ## Run the linters and all tests
 	$(RUN) -m pytest

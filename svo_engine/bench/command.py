@@ -16,6 +16,7 @@ from ..scene.types import Scene
 from . import core, edits, host, references, scaling, tables, thesis
 from .progress import Lines, progress
 from .rungs import OURS, PEERS, TIME_LIMITS, Rung, ladder
+from .verdicts import verdicts
 
 SOFTWARE_TRIANGLES = 500_000  # the most that the thesis's tables ask of a software renderer
 
@@ -43,7 +44,7 @@ class Plan:
         return [ladder(name, self.samples, self.time_limits or TIME_LIMITS, self.settings) for name in self.renderers]
 
 
-def run_core(plan: Plan) -> list[tables.Rendered]:
+def run_core(plan: Plan) -> None:
     """Ladders and edits of scenes in .npz files; writes ladder.csv and edits.csv."""
     scenes = load_scenes(plan)
     truths = load_references(plan)
@@ -60,10 +61,10 @@ def run_core(plan: Plan) -> list[tables.Rendered]:
         host.write(plan.out, session.device_info()["renderer"])
     tables.write(plan.out, tables.Rendered, found)
     tables.write(plan.out, tables.Edited, edited)
-    return found
+    _print_verdicts(found)
 
 
-def run_thesis(plan: Plan) -> list[tables.Timed]:
+def run_thesis(plan: Plan) -> None:
     """The thesis's tables on the first scene of the plan, if any, and on balls of more and more triangles."""
     given = list(load_scenes(plan).items())[:1]
     with closing(Session()) as session:
@@ -75,7 +76,11 @@ def run_thesis(plan: Plan) -> list[tables.Timed]:
         found = list(_thesis_rows(given or balls[:1], balls, lines))
     host.write(plan.out, device)
     tables.write(plan.out, tables.Timed, found)
-    return found
+
+
+def _print_verdicts(rows: Sequence[tables.Rendered]) -> None:
+    for verdict in verdicts(rows):
+        print(verdict.sentence())
 
 
 def _thesis_rows(main: list[tuple[str, Scene]], balls: list[tuple[str, Scene]],
@@ -87,7 +92,7 @@ def _thesis_rows(main: list[tuple[str, Scene]], balls: list[tuple[str, Scene]],
         yield from thesis.voxelization_rows(name, scene, thesis.TRIANGLES_SIZES, lines)
 
 
-def run_scaling(plan: Plan) -> list[tables.Scaled]:
+def run_scaling(plan: Plan) -> None:
     """All series of `scaling.py`; writes scaling.csv."""
     with closing(Session()) as session:
         device = session.device_info()["renderer"]
@@ -96,10 +101,9 @@ def run_scaling(plan: Plan) -> list[tables.Scaled]:
             found = list(scaling.rows(todo, session, lines))
     host.write(plan.out, device)
     tables.write(plan.out, tables.Scaled, found)
-    return found
 
 
-def run_blender(plan: Plan, device: str, reference_samples: int) -> list[tables.Rendered]:
+def run_blender(plan: Plan, device: str, reference_samples: int) -> None:
     """Ladders of scenes in .blend files through Blender, peers included; writes ladder.csv, and the references that
     Cycles made as references/SCENE.npz."""
     from . import through_blender
@@ -117,7 +121,14 @@ def run_blender(plan: Plan, device: str, reference_samples: int) -> list[tables.
             tables.write(plan.out, tables.Rendered, found)
     with closing(Session()) as session:
         host.write(plan.out, session.device_info()["renderer"])
-    return found
+    _print_verdicts(found)
+
+
+def write_report(folder: Path) -> None:
+    """Pages of the tables in folder/data/*/."""
+    from . import report
+
+    print(*report.write(folder), sep="\n")
 
 
 def load_scenes(plan: Plan) -> dict[str, Scene]:

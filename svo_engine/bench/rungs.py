@@ -96,8 +96,8 @@ def climb(rungs: Sequence[Rung], shoot: Callable[[Rung], Shot], longest: float, 
 
 
 def expected(known: Sequence[tuple[float, float]], cost: float) -> float:
-    """Seconds of a rung by the line through the last two (cost, seconds); with one alone, at least what that took."""
-    if len(known) < 2:
+    """Seconds of a rung by the line through the last two (cost, seconds); what the last one took if there is none."""
+    if len(known) < 2 or known[-1][0] == known[-2][0]:
         return known[-1][1] if known else 0.0
     (cost_0, seconds_0), (cost_1, seconds_1) = known[-2:]
     return seconds_1 + max(seconds_1 - seconds_0, 0) / (cost_1 - cost_0) * (cost - cost_1)

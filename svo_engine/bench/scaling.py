@@ -21,13 +21,13 @@ from .rungs import Shot, median, repeat
 from .shapes import hall
 from .tables import Scaled, pack
 
-SIZE = 320, 240
-FIXED = {"samples": 1, "cache_resolution": "64", "denoise": True}
+GPU_SIZE, SOFTWARE_SIZE = (800, 600), (160, 120)
+GPU_CACHE, SOFTWARE_CACHE = "128", "32"
 
 
 @dataclass(frozen=True)
 class Point:
-    """One frame of a series. scene: arguments of `hall`; settings: beside FIXED."""
+    """One frame of a series. scene: arguments of `hall`; settings: of ours, all others at their defaults."""
 
     axis: str
     x: float
@@ -37,20 +37,27 @@ class Point:
 
 
 def points(is_software: bool) -> list[Point]:
-    """All frames of all series; shorter ones for a software renderer, which would take hours."""
+    """All frames of all series; smaller and shorter ones for a software renderer, which would take hours."""
+    size = SOFTWARE_SIZE if is_software else GPU_SIZE
+    fixed = {"samples": 1, "cache_resolution": SOFTWARE_CACHE if is_software else GPU_CACHE}
+    plain: Mapping[str, int] = {}
+
+    def cut(values: Sequence[Any], n_short: int = 4) -> Sequence[Any]:
+        return values[:n_short] if is_software else values
+
     return [
-        *(Point("triangles", n, SIZE, {"n_triangles": n}, {})
-          for n in _series((5_000, 20_000, 80_000, 320_000, 1_280_000, 5_000_000), is_software, 4)),
-        *(Point("octree", n, SIZE, {}, {"cache_resolution": str(n)})
-          for n in _series((32, 64, 128, 256, 512, 1024), is_software, 4)),
-        *(Point("voxel grid", n, SIZE, {}, {"method": "cones", "resolution": str(n)})
-          for n in _series((32, 64, 128, 256), is_software, 4)),
-        *(Point("lamps", n, SIZE, {"n_lamps": n}, {}) for n in _series((1, 4, 16, 64, 256, 1024), is_software, 4)),
-        *(Point("pixels", w * h, (w, h), {}, {})
-          for w, h in _series(((160, 120), (320, 240), (640, 480), (1280, 960), (2560, 1920)), is_software, 3)),
-        *(Point("bounces", n, SIZE, {}, {"bounces": n}) for n in _series((1, 2, 4, 8, 16, 32), is_software, 5)),
-        *(Point("instances", n, SIZE, {"n_triangles": 500, "n_balls": n}, {})
-          for n in _series((1, 8, 64, 512, 4096, 32768), is_software, 4)),
+        *(Point("triangles", n, size, {"n_triangles": n}, fixed)
+          for n in cut((5_000, 20_000, 80_000, 320_000, 1_280_000, 5_000_000))),
+        *(Point("octree", n, size, plain, {**fixed, "cache_resolution": str(n)})
+          for n in cut((32, 64, 128, 256, 512, 1024))),
+        *(Point("voxel grid", n, size, plain, {**fixed, "method": "cones", "resolution": str(n)})
+          for n in cut((32, 64, 128, 256))),
+        *(Point("lamps", n, size, {"n_lamps": n}, fixed) for n in cut((1, 4, 16, 64, 256, 1024))),
+        *(Point("pixels", w * h, (w, h), plain, fixed)
+          for w, h in cut(((80, 60), (160, 120), (320, 240), (640, 480), (1280, 960), (2560, 1920)))),
+        *(Point("bounces", n, size, plain, {**fixed, "bounces": n}) for n in cut((1, 2, 4, 8, 16, 32), 5)),
+        *(Point("instances", n, size, {"n_triangles": 500, "n_balls": n}, fixed)
+          for n in cut((1, 8, 64, 512, 4096, 32768))),
     ]
 
 
@@ -61,7 +68,7 @@ def rows(todo: Sequence[Point], session: Session, lines: Lines) -> Iterator[Scal
         lines.step(f"{point.axis}: {point.x:,.0f}")
         if point.scene != last:
             last, scene = point.scene, hall(**point.scene)
-        shoot = partial(_shoot, Shooter(session, point.size), scene, {**FIXED, **point.settings})
+        shoot = partial(_shoot, Shooter(session, point.size), scene, point.settings)
         shoot()
         shots = repeat(shoot)
         yield Scaled(point.axis, device, point.x, median(shots), len(shots), pack(shots[-1].parts), shots[-1].n_bytes)
@@ -69,7 +76,3 @@ def rows(todo: Sequence[Point], session: Session, lines: Lines) -> Iterator[Scal
 
 def _shoot(shooter: Shooter, scene: Scene, settings: Mapping[str, Any]) -> Shot:
     return shooter.shoot(all_anew(scene, 0), settings)
-
-
-def _series(values: Sequence[Any], is_software: bool, n_short: int) -> Sequence[Any]:
-    return values[:n_short] if is_software else values

@@ -110,10 +110,16 @@ def write(folder: Path, kind: type[Row], rows: Iterable[Row]) -> Path:
 
 
 def read(folder: Path, kind: type[Row]) -> list[Row]:
-    """The rows of a table in `folder`, none if it has no such file; SvoError if the file holds something else."""
-    path, types = folder / FILES[kind], get_type_hints(kind)
-    if not path.is_file():
-        return []
+    """The rows of a table in `folder`, none if it has no such file; SvoError if a file holds something else.
+
+    Files whose names go on after the table's, as ladder_peers.csv does, hold more of it: what others measured.
+    """
+    stem, ending = FILES[kind].split(".")
+    return [row for path in sorted(folder.glob(f"{stem}*.{ending}")) for row in _read_file(path, kind)]
+
+
+def _read_file(path: Path, kind: type[Row]) -> list[Row]:
+    types = get_type_hints(kind)
     with path.open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     try:

@@ -26,15 +26,28 @@ def scene_rows(file: Path, stored: Path | None, out: Path, ladders: Sequence[Seq
     truth = references.load(stored) if stored else None
     with peers.opened(file, size or (truth.size if truth else None)) as scene:
         if truth is None:
-            lines.step(f"{file.stem}: the reference, {reference_samples} samples of Cycles", reference_samples)
-            truth = make_reference(partial(peers.renderer, scene, "cycles", device), reference_samples)
-            references.save(truth, out / "references" / f"{file.stem}.npz")
+            render = scene.render
+            pixels = size or (render.resolution_x * render.resolution_percentage // 100,
+                              render.resolution_y * render.resolution_percentage // 100)
+            path = out / "references" / f"{file.stem}_{pixels[0]}x{pixels[1]}_{reference_samples}.npz"
+            truth = _reference(path, partial(peers.renderer, scene, "cycles", device), reference_samples, lines)
         width, height = truth.size
         for rungs in ladders:
             with peers.renderer(scene, rungs[0].renderer, device) as render:
                 for rung, shots in climb(rungs, partial(_shoot, render), longest, lines, file.stem):
                     yield row(rung, shots, truth, scene=file.stem, size=f"{width}x{height}", kind="render",
                               device=peers.device_name(device))
+
+
+def _reference(path: Path, renderer: Callable[[], Any], n_samples: int, lines: Lines) -> Reference:
+    """The one in `path`, which an earlier run made, or a new one."""
+    lines.step(f"{path.stem}: the reference, by Cycles", n_samples)
+    if path.is_file():
+        lines.say(f"'{path}' is there and used; remove it if the scene has changed")
+        return references.load(path)
+    made = make_reference(renderer, n_samples)
+    references.save(made, path)
+    return made
 
 
 def make_reference(renderer: Callable[[], Any], n_samples: int) -> Reference:

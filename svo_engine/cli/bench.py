@@ -31,6 +31,8 @@ def add(subparsers: Any) -> None:
                        ("thesis", "the thesis's tables, on the first scene that is a .npz"),
                        ("scaling", "how time and memory grow")):
         command.add_argument(f"--{part}", action="store_true", help=text)
+    command.add_argument("--report", type=Path, metavar="DIR",
+                         help="write pages and plots into DIR from the tables in DIR/data/*/")
     command.add_argument("--renderers", nargs="+", metavar="NAME", default=[],
                          help="of rays cones cycles cycles-oidn eevee (default: all; eevee needs --device gpu)")
     command.add_argument("--device", choices=("cpu", "gpu"), default="cpu",
@@ -38,7 +40,7 @@ def add(subparsers: Any) -> None:
     command.add_argument("--samples", type=int, nargs="+", default=[], metavar="N", help="instead of the usual ones")
     command.add_argument("--time-limits", type=float, nargs="+", default=[], metavar="SECONDS",
                          help="of rays, instead of the usual ones")
-    command.add_argument("--reference-samples", type=int, default=2048, metavar="N",
+    command.add_argument("--reference-samples", type=int, default=1024, metavar="N",
                          help="of each reference that Cycles makes, in two halves (default: %(default)s)")
     command.add_argument("--longest", type=float, default=30.0, metavar="SECONDS",
                          help="rungs that would take longer are left out (default: %(default)g)")
@@ -52,9 +54,9 @@ def bench(args: argparse.Namespace) -> None:
     from ..bench import command
 
     has_work = args.scenes or args.thesis or args.scaling
-    if not has_work:
-        raise SvoError("There is nothing to do: give --scenes, --thesis or --scaling")
-    if not args.out:
+    if not has_work and not args.report:
+        raise SvoError("There is nothing to do: give --scenes, --thesis, --scaling or --report")
+    if has_work and not args.out:
         raise SvoError("--out is missing: the folder for the tables")
     is_core = args.core or args.thesis
     plan = command.Plan(args.scenes, args.references, args.out,
@@ -68,6 +70,8 @@ def bench(args: argparse.Namespace) -> None:
         command.run_thesis(plan)
     if args.scaling:
         command.run_scaling(plan)
+    if args.report:
+        command.write_report(args.report)
 
 
 def _settings(texts: list[tuple[str, str]]) -> dict[str, Any]:

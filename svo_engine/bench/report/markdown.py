@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Markdown, and numbers as people read them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+
+def table(headers: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table whose first column is text and whose others are numbers."""
+    align = ["---", *["---:"] * (len(headers) - 1)]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [headers, align, *rows]) + "\n"
+
+
+def number(value: float, digits: int = 3) -> str:
+    """To some significant digits, never with an exponent; '-' for what was not measured."""
+    if not math.isfinite(value):
+        return "-"
+    if value == 0:
+        return "0"
+    places = max(digits - 1 - math.floor(math.log10(abs(value))), 0)
+    return f"{value:,.{places}f}"
+
+
+def factor(ratio: float) -> str:
+    """A ratio, '-' where there is nothing to compare."""
+    return number(ratio) if ratio > 0 else "-"
+
+
+def percent(value: float) -> str:
+    """A part with its sign."""
+    return f"{value:+.2%}" if math.isfinite(value) else "-"
+
+
+def size(n_bytes: float) -> str:
+    """Bytes in MiB."""
+    return number(n_bytes / 2**20)
