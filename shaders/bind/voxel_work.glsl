@@ -11,7 +11,7 @@ layout(std430) buffer StripFirst { uint strip_first[]; };  // strips of all tria
 uniform uint u_n_instances;
 uniform uint u_n_work;            // triangles of all instances
 
-const int COLUMNS = 8;
+const int COLUMNS = 9;  // three by three: most triangles of a fine mesh are one strip
 
 struct Strip {
     VoxelTriangle shape;

@@ -10,8 +10,9 @@ import pytest
 
 from svo_engine.errors import GpuError
 from svo_engine.gpu import device as device_module
-from svo_engine.passes.octree import build_octree
+from svo_engine.passes.octree import AVERAGE, build_octree
 from svo_engine.passes.upload import upload
+from svo_engine.passes.voxelize import make_grid
 from svo_engine.scene.meshes import make_mesh
 from svo_engine.scene.types import Material
 from tests import scenes
@@ -19,7 +20,7 @@ from tests.compute import evaluate
 from tests.on_gpu import film_of
 from tests.oracle import slow_voxels
 from tests.rays import RAYS, TURN
-from tests.surfels import SURFEL, Surfels, surfels_of
+from tests.surfels import SURFEL, Surfels, surfels_of, unpack_units
 from tools import memory
 
 N = 32
@@ -195,6 +196,19 @@ def test_touches_keep_the_colour_and_the_normal_of_their_surface(device):
             n_lone += 1
             assert np.allclose(normal, mean[3:6] / np.linalg.norm(mean[3:6]), atol=np.sqrt(3) / 32 + UNIT)
     assert n_lone > 100
+
+
+def test_a_surfel_to_which_nothing_was_added_is_black(device):
+    """Passes that are compiled apart may round a mere touch differently: marked by one, not found by another."""
+    grid = make_grid(2.0, N)
+    with device.scope() as scope:
+        surfels = scope.buffer("surfels", SURFEL.itemsize)
+        device.dispatch(AVERAGE, 1, {"SUMS": 13}, Sums=scope.buffer("sums", 4 * 13, clear=True), Surfels=surfels,
+                        **grid.uniforms(), u_emission_unit=0.0)
+        row = np.frombuffer(surfels.read(), SURFEL)
+    assert np.allclose(unpack_units(row["normal"]), (0, 0, 1))
+    assert not row["albedo"].any() and not row["emission"].any()
+    assert np.allclose(row["position"], grid.low)
 
 
 def test_positions_lie_in_their_voxels_and_on_their_triangles(device):
