@@ -8,13 +8,15 @@ from typing import Any
 import numpy as np
 
 from svo_engine.render import Session
-from svo_engine.scene.types import Camera, Material, Scene
+from svo_engine.scene.types import Camera, Material, Scene, World
 from tests import scenes
 from tests.on_gpu import picture_of
 
 # One ray a pixel through its very centre; the fewest rays everywhere else
 RAYS = {"method": "rays", "cache_resolution": "32", "cache_rays": 4, "gather_rays": 4, "bounces": 12,
         "injection_samples": 1, "filter_width": 0.01, "denoise": False}
+
+FLAT_WORLD = World((1.0, 1.0, 1.0))
 
 TURN = scenes.look((0.3, 0.5, 0.4)) * (1, 1, 1, 0) + np.diag([0, 0, 0, 1])  # about no axis of the grid
 

@@ -7,7 +7,7 @@
 #include "gather/met.glsl"
 #include "lib/sequence.glsl"
 
-const int N_VERTICES = 12;  // of a path, the pixel's own included
+const int N_VERTICES = 24;  // of a path, the pixel's own included
 const float ROUGH = 0.25;   // alpha from which a met surface mirrors what arrives from everywhere, not what one ray finds
 
 // Radiance towards the eye. Direct: straight from lights; distance: metres that the ray went, INFINITE to the world.
@@ -42,7 +42,7 @@ vec3 drawn_light(Vertex v, bool is_through, uint index, uint seed)
 {
     Surface s = v.surface;
     vec3 L = vec3(0.0);
-    if (v.bsdf.alpha <= SMOOTH || (is_through && !(v.bsdf.transmission != vec3(0.0) && is_bending(v.bsdf))))
+    if (v.bsdf.alpha <= SMOOTH || (is_through && (v.bsdf.glass == vec3(0.0) || !is_bending(v.bsdf))))
         return L;
     if (is_through)
         s.normal = -s.normal, s.normal_geometric = -s.normal_geometric, s.lift = vec3(0.0);
@@ -76,7 +76,7 @@ struct Found {
     float distance;
 };
 
-// One random path from v on. Each vertex reflects or lets through, and goes on with its albedo as probability.
+// One random path from v on. Each vertex reflects or lets through, and goes on with twice its albedo as probability.
 Found follow(Vertex v, uint seed)
 {
     Found found = Found(vec3(0.0), vec3(0.0), false, INFINITE);
@@ -107,11 +107,11 @@ Found follow(Vertex v, uint seed)
             break;
         v = vertex_at(met.surface, met.shading, -d);
         vec3 albedo = v.bsdf.glossy + v.bsdf.transmission;
-        bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.transmission == vec3(0.0));
+        bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.glass == vec3(0.0));
         vec3 ending = v.bsdf.diffuse + (is_last ? v.bsdf.glossy : vec3(0.0));
         if (ending != vec3(0.0))
             found.indirect += beta * ending / PI * arriving(met, index, seed);
-        float chance = min(max(albedo.r, max(albedo.g, albedo.b)), 1.0);
+        float chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
         if (is_last || chances.y >= chance)
             break;
         beta /= chance;
