@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    exclusive prefix sums [Blelloch90]: each block adds up its own values, behind the sums of all blocks before it.
-// In:         Values, BlockSums of all blocks but the last
-// Out:        Firsts: the sum of all values before it, Values itself if need be; Total: the sum of all
+// In:         Values; with HAS_SUMS the BlockSums of all blocks but the last
+// Out:        Firsts: the sum of all values before it, with HAS_SUMS in Values itself if need be; Total: the sum of all
 // Invocation: eight neighbouring values; one workgroup a block
 
 #include "voxelize/scan_values.glsl"
+
+const bool HAS_SUMS = false;  // else each block adds up all values before it, while they are too few for another dispatch
 
 layout(std430) readonly buffer BlockSums { uint block_sums[]; };
 layout(std430) writeonly buffer Firsts { uint firsts[]; };
@@ -25,8 +27,8 @@ void main()
     if (lane == 0u)
         before = 0u;
     barrier();
-    for (uint i = lane; i < block; i += 256u)
-        blocks += block_sums[i];
+    for (uint i = lane; i < (HAS_SUMS ? block : block * 2048u); i += 256u)
+        blocks += HAS_SUMS ? block_sums[i] : value_at(i);
     atomicAdd(before, blocks);
     for (uint reach = 1u; reach < 256u; reach *= 2u) {
         uint left = lane >= reach ? sums[lane - reach] : 0u;

@@ -35,6 +35,7 @@ SCAN = Pass(("voxelize/scan.comp.glsl",), ("Values", "BlockSums", "Firsts", "Tot
 PADDING = 2  # empty voxels around the scene: a filter never reads past the border
 SHIFT = 0.3819660113  # of a voxel, irrational, so that walls on round coordinates do not lie in cell borders
 SCAN_BLOCK = 2048
+FEW_BLOCKS = 24  # whose sums cost less than the dispatch that finds them for all
 
 
 @dataclass(frozen=True)
@@ -93,10 +94,11 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
 
 def cut_strips(device: Device, scratch: GpuScope, gpu_scene: GpuScene, grid: Grid) -> tuple[dict[str, Any], int]:
     """The resources of bind/voxel_work.glsl and the number of strips: voxelization's work, cut evenly."""
-    work = {**gpu_scene.geometry, **grid.uniforms(), "u_n_instances": gpu_scene.n_instances,
-            "u_n_work": gpu_scene.n_work, "StripFirst": scratch.buffer("strips", 4 * gpu_scene.n_work)}
-    device.dispatch(COUNT, gpu_scene.n_work, **work)
-    return work, scan(device, scratch, work["StripFirst"], gpu_scene.n_work)
+    n, counts = gpu_scene.n_work, scratch.buffer("strip counts", 4 * gpu_scene.n_work)
+    work = {**gpu_scene.geometry, **grid.uniforms(), "u_n_instances": gpu_scene.n_instances, "u_n_work": n}
+    device.dispatch(COUNT, n, **work, StripFirst=counts)
+    work["StripFirst"] = scratch.buffer("strips", 4 * n)
+    return work, scan(device, scratch, counts, n, work["StripFirst"])
 
 
 def mark(device: Device, scope: GpuScope, work: dict[str, Any], n_strips: int, grid: Grid) -> Any:
@@ -117,10 +119,12 @@ def scan(device: Device, scratch: GpuScope, values: Any, n: int, firsts: Any = N
 
     are_bits: a value is the number of bits that are set in its word
     """
-    n_blocks, constants = -(-n // SCAN_BLOCK), {"ARE_BITS": are_bits}
+    n_blocks, bits = -(-n // SCAN_BLOCK), {"ARE_BITS": are_bits}
     sums, total = scratch.buffer("block sums", 4 * n_blocks), scratch.buffer("total", 4, clear=True)
     resources = {"Values": values, "BlockSums": sums, "u_n_values": n}
-    if n_blocks > 1:
-        device.dispatch(BLOCK_SUMS, (n_blocks - 1) * 256, constants, **resources)
-    device.dispatch(SCAN, n_blocks * 256, constants, **resources, Firsts=firsts or values, Total=total)
+    has_sums = n_blocks > FEW_BLOCKS or (firsts is None and n_blocks > 1)
+    if has_sums:
+        device.dispatch(BLOCK_SUMS, (n_blocks - 1) * 256, bits, **resources)
+    device.dispatch(SCAN, n_blocks * 256, {**bits, "HAS_SUMS": has_sums}, **resources, Total=total,
+                    Firsts=values if firsts is None else firsts)
     return int(np.frombuffer(total.read(4), "u4")[0])
