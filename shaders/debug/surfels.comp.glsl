@@ -10,7 +10,8 @@
 #include "bind/film.glsl"
 #include "bind/gbuffer.glsl"
 
-const bool SHOW_ALBEDO = false;  // rho instead of L
+const bool SHOW_ALBEDO = false;   // rho instead of L, each side in a shade of it, so that surfels can be told apart
+const float DARKEST_SHADE = 0.7;
 
 layout(local_size_x = 64) in;
 
@@ -22,8 +23,10 @@ uniform uint u_end;
 vec3 shown(uint side)
 {
     Surfel s = surfels[side / 2u];
+    if (SHOW_ALBEDO)
+        return s.albedo * mix(DARKEST_SHADE, 1.0, r2_point(0u, side).x);
     vec3 E = cache[cache_entry(LAMPS, side)].rgb + cache[cache_entry(INDIRECT, side)].rgb;
-    return SHOW_ALBEDO ? s.albedo : s.emission + s.albedo / PI * E;
+    return s.emission + s.albedo / PI * E;
 }
 
 void main()

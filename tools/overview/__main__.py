@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`python -m tools.overview`: new pictures and times for docs/gi-overview.md, whose text stays as it is.
+
+Two steps, with out/overview.npz between them: `render` needs a GPU or patience, and the core alone; `page` needs
+Pillow. Both read what the steps `references` and `render` of tools.accuracy left in out/accuracy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from svo_engine.render import Session
+from svo_engine.scene import store
+from svo_engine.scene.camera import make_view
+from svo_engine.scene.types import Scene
+from svo_engine.settings import RenderSettings
+from tools.accuracy.__main__ import ROOT, SAMPLES, Plan
+
+from .page import write_page
+from .stages import STAGES
+
+STEPS = ("render", "page")
+
+
+def main() -> int:
+    """Run the asked steps."""
+    parser = argparse.ArgumentParser("tools.overview", description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} (default: both)")
+    parser.add_argument("--scene", default="cornell_suzanne_area")
+    parser.add_argument("--size", default="400x300", metavar="WxH")
+    parser.add_argument("--samples", nargs="+", type=int, default=[16, 256], metavar="N", help="of tools.accuracy's")
+    parser.add_argument("--reference-samples", type=int, default=1024, metavar="N", help="of Cycles")
+    parser.add_argument("--out", type=Path, default=ROOT / "out", metavar="DIR")
+    parser.add_argument("--docs", type=Path, default=ROOT / "docs", metavar="DIR")
+    options = parser.parse_args()
+    if unknown := set(options.steps) - set(STEPS):
+        parser.error(f"there is no step {', '.join(sorted(unknown))}")
+    width, height = map(int, options.size.split("x"))
+    scenes = tuple(sorted(path.stem for path in SAMPLES.glob("*.blend")))
+    plan = Plan(scenes, (width, height), tuple(options.samples), options.reference_samples, options.out / "accuracy",
+                options.docs)
+    if "render" in (options.steps or STEPS):
+        render(store.load(plan.scene(options.scene)), plan.size, options.out / "overview.npz")
+    if "page" in (options.steps or STEPS):
+        write_page(plan, options.scene, options.out / "overview.npz")
+    return 0
+
+
+def render(scene: Scene, size: tuple[int, int], out: Path) -> None:
+    """The picture of each stage, and the times of a frame of one sample with nothing kept from before."""
+    assert scene.camera, "sample scenes have a camera"
+    session, view, found = Session(), make_view(scene.camera, size), {}
+    for stage in STAGES:
+        print(f"tools.overview: {stage.name}", file=sys.stderr, flush=True)
+        *_, film = session.films(scene, view, RenderSettings(**stage.settings), interval=math.inf)
+        found[stage.name] = stage.show(film).astype("f4")
+    *_, film = session.films(anew(scene), view, RenderSettings(samples=1), interval=math.inf)
+    stats = {"device": film.stats["device"], "times_ms": film.stats["times_ms"], "counts": film.stats["counts"]}
+    np.savez_compressed(out, stats=np.array(json.dumps(stats)), **found)  # type: ignore[arg-type]
+    session.close()
+
+
+def anew(scene: Scene) -> Scene:
+    """The same scene in objects that no stage knows."""
+    return replace(scene, meshes=tuple(map(replace, scene.meshes)), instances=replace(scene.instances))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
