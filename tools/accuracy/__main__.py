@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -21,34 +20,7 @@ from svo_engine.bench import host, references
 from svo_engine.render import Session
 from svo_engine.scene import store
 
-from .page import write_page
-
-ROOT = Path(__file__).resolve().parents[2]
-SAMPLES = ROOT / "sample_blends"
-
-
-@dataclass(frozen=True)
-class Plan:
-    """samples: of ours; n_reference: of Cycles, in two halves."""
-
-    scenes: tuple[str, ...]
-    size: tuple[int, int]
-    samples: tuple[int, ...]
-    n_reference: int
-    out: Path
-    docs: Path
-
-    def scene(self, name: str) -> Path:
-        """The extracted scene."""
-        return self.out / f"{name}.npz"
-
-    def reference(self, name: str) -> Path:
-        """Both halves of Cycles' picture."""
-        return self.out / f"{name}_{self.size[0]}x{self.size[1]}_cycles_{self.n_reference}.npz"
-
-    def ours(self, name: str) -> Path:
-        """Our pictures: "16", "256" (height, width, 3) f4, row 0 at the bottom."""
-        return self.out / f"{name}_{self.size[0]}x{self.size[1]}_ours.npz"
+from .plan import ROOT, SAMPLES, Plan, sample_scenes, size_of
 
 
 def make_references(plan: Plan) -> None:
@@ -84,6 +56,8 @@ def render(plan: Plan) -> None:
 
 def page(plan: Plan) -> None:
     """Measure, and write the page with its pictures."""
+    from .page import write_page
+
     pictures = {}
     for name in plan.scenes:
         with np.load(plan.ours(name)) as data:
@@ -100,7 +74,7 @@ def main() -> int:
     """Run the asked steps."""
     parser = argparse.ArgumentParser("tools.accuracy", description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} (default: all)")
-    parser.add_argument("--scenes", nargs="+", default=sorted(path.stem for path in SAMPLES.glob("*.blend")))
+    parser.add_argument("--scenes", nargs="+", default=sample_scenes())
     parser.add_argument("--size", default="400x300", metavar="WxH")
     parser.add_argument("--samples", nargs="+", type=int, default=[16, 256], metavar="N", help="of ours")
     parser.add_argument("--reference-samples", type=int, default=1024, metavar="N", help="of Cycles")
@@ -109,9 +83,8 @@ def main() -> int:
     options = parser.parse_args()
     if unknown := set(options.steps) - set(STEPS):
         parser.error(f"there is no step {', '.join(sorted(unknown))}")
-    width, height = map(int, options.size.split("x"))
-    plan = Plan(tuple(options.scenes), (width, height), tuple(options.samples), options.reference_samples, options.out,
-                options.docs)
+    plan = Plan(tuple(options.scenes), size_of(options.size), tuple(options.samples), options.reference_samples,
+                options.out, options.docs)
     plan.out.mkdir(parents=True, exist_ok=True)
     for step in options.steps or STEPS:
         STEPS[step](plan)

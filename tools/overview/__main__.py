@@ -21,9 +21,8 @@ from svo_engine.scene import store
 from svo_engine.scene.camera import make_view
 from svo_engine.scene.types import Scene
 from svo_engine.settings import RenderSettings
-from tools.accuracy.__main__ import ROOT, SAMPLES, Plan
+from tools.accuracy.plan import ROOT, Plan, sample_scenes, size_of
 
-from .page import write_page
 from .stages import STAGES
 
 STEPS = ("render", "page")
@@ -42,13 +41,13 @@ def main() -> int:
     options = parser.parse_args()
     if unknown := set(options.steps) - set(STEPS):
         parser.error(f"there is no step {', '.join(sorted(unknown))}")
-    width, height = map(int, options.size.split("x"))
-    scenes = tuple(sorted(path.stem for path in SAMPLES.glob("*.blend")))
-    plan = Plan(scenes, (width, height), tuple(options.samples), options.reference_samples, options.out / "accuracy",
-                options.docs)
+    plan = Plan(sample_scenes(), size_of(options.size), tuple(options.samples), options.reference_samples,
+                options.out / "accuracy", options.docs)
     if "render" in (options.steps or STEPS):
         render(store.load(plan.scene(options.scene)), plan.size, options.out / "overview.npz")
     if "page" in (options.steps or STEPS):
+        from .page import write_page
+
         write_page(plan, options.scene, options.out / "overview.npz")
     return 0
 

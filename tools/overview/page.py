@@ -14,8 +14,8 @@ import numpy as np
 from svo_engine.bench.references import Reference, load
 from svo_engine.film import encode_srgb
 from svo_engine.metrics import RELATIVE_FLOOR
-from tools.accuracy.__main__ import Plan
 from tools.accuracy.page import AMPLIFIED, montage, save_small
+from tools.accuracy.plan import Plan
 
 from .stages import STAGES, milliseconds
 

@@ -42,8 +42,8 @@ RAW: dict[str, Any] = {"samples": 1, "denoise": False}
 STAGES = (
     Stage("visibility", "Visible surfaces, their normals as colours", {**RAW, "passes": ("Normal",)}, normal,
           ("raster/",)),
-    Stage("octree", "The octree's surfels, their albedo", {**RAW, "view": "cache_albedo"}, combined,
-          ("voxelize/", "octree/")),
+    Stage("octree", "The octree's surfels, their albedo in shades; these are of 32 cubed voxels, the time of 128 cubed",
+          {**RAW, "view": "cache_albedo", "cache_resolution": "32"}, combined, ("voxelize/", "octree/")),
     Stage("lamps", "The light cache after the lamps", {**RAW, "view": "cache", "bounces": 0}, combined,
           ("cache/direct", "lights/")),
     Stage("bounce_1", "after one bounce", {**RAW, "view": "cache", "bounces": 1}),
