@@ -20,7 +20,7 @@ def noisy(seed: int, sigma: float = 0.01) -> np.ndarray:
 
 
 def test_noise_of_the_reference_is_no_error():
-    """The mean of products of independent noises: 0 within four sigma, which are the noise's variance / sqrt(n) each."""
+    """The mean of products of independent noises: 0 within four of their own sigma."""
     reference, truth = from_halves(noisy(1), noisy(2)), np.full(SIZE, 0.5, "f4")
     error = error_map(truth, reference)
     assert abs(error.mean()) < 4 * 1e-4 / 0.26 / np.sqrt(np.prod(SIZE))
