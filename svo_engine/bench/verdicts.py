@@ -73,7 +73,7 @@ def seconds(time: float | None) -> str:
     """A time as people say it."""
     if time is None:
         return "-"
-    return f"{time * 1e3:.3g} ms" if time < 1 else f"{time:.3g} s"
+    return f"{time * 1e3:.3g} ms" if time < 0.9995 else f"{time:.3g} s"
 
 
 def _mean(ratios: np.ndarray) -> str:

@@ -19,7 +19,8 @@ def number(value: float, digits: int = 3) -> str:
         return "-"
     if value == 0:
         return "0"
-    places = max(digits - 1 - math.floor(math.log10(abs(value))), 0)
+    exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])  # of the rounded value
+    places = max(digits - 1 - exponent, 0)
     return f"{value:,.{places}f}"
 
 

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The core measures without Blender and without the report's packages; edits; the thesis's tables; scaling."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from svo_engine.bench import edits, references, scaling, shapes, tables, thesis
+from svo_engine.bench.progress import Lines, progress
+from svo_engine.cli import main
+from svo_engine.scene import store
+from svo_engine.scene.camera import make_view
+from svo_engine.settings import RenderSettings
+from tests import scenes
+from tests.on_gpu import film_of
+
+SIZE = 16, 12
+QUICK = {"cache_resolution": "32", "cache_rays": 4, "bounces": 2}
+ABSENT = ("bpy", "matplotlib", "rich", "flip_evaluator", "PIL", "OpenEXR")
+
+
+@pytest.fixture
+def saved(tmp_path, session):
+    """A scene and two halves of its reference, in files."""
+    scene = scenes.cornell()
+    store.save(scene, tmp_path / "room.npz")
+    view = make_view(scene.camera, SIZE)
+    halves = [film_of(session, scene, view, method="rays", seed=seed, **QUICK).planes["Combined"][..., :3]
+              for seed in (1, 2)]
+    references.save(references.from_halves(*halves), tmp_path / "room_reference.npz")
+    return tmp_path
+
+
+def test_ladder_and_edits_with_nothing_but_the_core(saved, root):
+    arguments = ["bench", "--core", "--scenes", saved / "room.npz", "--references", saved / "room_reference.npz",
+                 "--out", saved / "out", "--renderers", "rays", "--samples", "1", "2", "--time-limits", "1000",
+                 *(word for name, value in QUICK.items() for word in ("--set", f"{name}={value}"))]
+    code = f"""
+import sys
+sys.modules.update(dict.fromkeys({ABSENT}))
+from svo_engine.cli import main
+sys.exit(main())
+"""
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=root)
+    assert done.returncode == 0, done.stderr
+    ladder = tables.read(saved / "out", tables.Rendered)
+    assert [(row.rung, row.kind) for row in ladder] == [(rung, kind) for rung in ("1 sample", "2 samples")
+                                                        for kind in ("all", "light", "camera")]
+    assert all(row.size == "16x12" and row.seconds > 0 and np.isfinite(row.error) for row in ladder)
+    assert np.isnan(ladder[0].flip)
+    by_kind = {row.kind: tables.unpack(row.parts) for row in ladder}
+    assert "cache" in by_kind["light"] and "cache" not in by_kind["camera"]
+    assert {row.edit for row in tables.read(saved / "out", tables.Edited)} == set(edits.EDITS)
+
+
+@pytest.mark.parametrize(("arguments", "sentence"), [
+    ((), "There is nothing to do"),
+    (("--scenes", "a.npz", "--core"), "--out is missing"),
+    (("--scenes", "a.npz", "--core", "--out", "x", "--renderers", "cycles"), "There is no renderer 'cycles' here"),
+    (("--scenes", "a.npz", "--core", "--out", "x"), "a.npz"),
+    (("--scaling", "--out", "x", "--set", "bounces=-1"), "must lie between"),
+    (("--report", "nowhere"), "There are no tables"),
+])
+def test_mistakes_are_sentences(arguments, sentence, capsys, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert main(["bench", *arguments]) == 1
+    assert sentence in capsys.readouterr().err
+
+
+def test_one_reference_for_each_scene_or_none(saved, capsys):
+    two = [str(saved / "room.npz")] * 2
+    assert main(["bench", "--core", "--scenes", *two, "--references", two[0], "--out", str(saved / "out")]) == 1
+    assert "2 scenes and 1 references" in capsys.readouterr().err
+
+
+def test_every_edit_changes_what_it_says_and_nothing_else():
+    scene = scenes.cornell()
+    named = edits.possible(scene)
+    assert set(named) == set(edits.EDITS)
+    assert named["nothing"](scene, 1) is scene
+    assert named["lamp's power"](scene, 1).lights[0].emitted > scene.lights[0].emitted
+    assert named["material's colour"](scene, 1).materials[0].base_color < scene.materials[0].base_color
+    for name in ("lamp moved", "lamp's power", "material's colour", "object moved"):
+        edited = named[name](scene, 1)
+        changed = {field for field in ("meshes", "instances", "materials", "lights", "world", "camera")
+                   if getattr(edited, field) is not getattr(scene, field)}
+        assert len(changed) == 1
+    assert named["everything"](scene, 1).meshes[0] is not scene.meshes[0]
+    assert edits.light_anew(scene, 1).meshes is scene.meshes
+    assert not np.array_equal(edits.camera(scene, 1).world_from_camera, edits.camera(scene, 2).world_from_camera)
+
+
+def test_a_scene_without_lamps_has_no_lamp_to_edit():
+    found = edits.possible(replace(scenes.cornell(), lights=()))
+    assert set(edits.EDITS) - set(found) == {"lamp's power", "lamp moved"}
+
+
+@pytest.mark.parametrize("n", [100, 5000, 20000])
+def test_a_ball_has_about_as_many_triangles_as_asked(n):
+    assert len(shapes.bumpy_ball(n).triangles) == pytest.approx(n, rel=3 / np.sqrt(n) + 0.1)
+
+
+@pytest.mark.parametrize(("n_lamps", "n_balls"), [(1, 1), (7, 9)])
+def test_a_hall_shares_its_light_and_its_space(n_lamps, n_balls):
+    hall = shapes.hall(100, n_lamps, n_balls)
+    assert (len(hall.lights), len(hall.instances)) == (n_lamps, n_balls + 1)
+    assert sum(lamp.emitted[0] for lamp in hall.lights) == pytest.approx(shapes.POWER)
+    low, high = hall.bounds()
+    assert low == pytest.approx([-1, -1, 0], abs=1e-6) and high == pytest.approx([1, 1, 2], abs=1e-6)
+
+
+def test_the_walls_of_a_hall_face_inwards():
+    room = shapes.hall().meshes[0]
+    centres = room.positions[room.triangles].mean(1)
+    assert (np.einsum("ij,ij->i", room.corner_normals[:, 0], centres - (0, 0, 1)) < 0).all()
+
+
+def test_tables_of_the_thesis(monkeypatch):
+    monkeypatch.setattr(thesis, "FRAME_SIZE", SIZE)
+    monkeypatch.setattr(thesis, "FRAME", {**thesis.FRAME, "resolution": "32"})
+    rows = [*thesis.voxelization_rows("room", scenes.cornell(), (32,), Lines()),
+            *thesis.frame_rows("room", scenes.cornell(), Lines())]
+    assert [row.what for row in rows] == ["occupancy", "voxels", "direct light", "whole frame"]
+    assert all(row.gpu_ms > 0 and row.n_runs for row in rows)
+    assert rows[1].n_voxels > 0
+    assert tables.unpack(rows[1].parts).keys() > tables.unpack(rows[0].parts).keys()
+
+
+def test_direct_light_is_less_than_all_light(session):
+    scene = scenes.cornell()
+    direct, whole = (film_of(session, scene, **{**values, "resolution": "32"}).planes["Combined"][..., :3]
+                     for values in (thesis.DIRECT, thesis.FRAME))
+    assert 0 < direct.mean() < whole.mean()
+
+
+def test_scaling_measures_each_point(session):
+    todo = [scaling.Point("lamps", n, SIZE, {"n_triangles": 100, "n_lamps": n}, {"samples": 1, **QUICK})
+            for n in (1, 2)]
+    rows = list(scaling.rows(todo, session, Lines()))
+    assert [(row.axis, row.x) for row in rows] == [("lamps", 1), ("lamps", 2)]
+    assert all(row.seconds > 0 and row.n_bytes > 0 and "gather/rays" in tables.unpack(row.parts) for row in rows)
+
+
+@pytest.mark.parametrize("is_software", [False, True])
+def test_points_are_settings_and_halls(is_software):
+    points = scaling.points(is_software)
+    for point in points:
+        RenderSettings(**point.settings)
+    assert len({(point.axis, point.x) for point in points}) == len(points)
+    for axis in {point.axis for point in points}:
+        xs = [point.x for point in points if point.axis == axis]
+        assert len(xs) > 2 and xs == sorted(xs)
+
+
+def test_progress_says_each_step_where_there_is_no_terminal(capsys):
+    with progress(2) as lines:
+        lines.step("one")
+        lines.skip(1, "two is left out")
+    assert capsys.readouterr().err == "svo_engine: one\nsvo_engine: two is left out\n"
