@@ -64,7 +64,7 @@ void main()
     vec4 sum = vec4(0.0);
     for (int k = 0; k < N_SAMPLES; k++) {
         vec2 u = vec2((float(k) + 0.5) / float(N_SAMPLES), fract(float(k) * GOLDEN));
-        vec3 any = direction_of(sqrt(r2_point(uint(k), 0u).x));  // distributed as its cosine
+        vec3 any = direction_of(sqrt(sobol_point(uint(k), 0u).x));  // distributed as its cosine
         vec3 wo = at.z == ALBEDO_MEANS ? any : direction_of(c);
         vec3 h = visible_normal(wo, alpha, u);
         sum += at.z == ALBEDO_METALS ? metal(wo, h, alpha) : dielectric(wo, h, ior, alpha);

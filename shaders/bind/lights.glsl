@@ -28,7 +28,7 @@ int n_draws()
 // that the triangle stands for, so that smooth shading ends smoothly [Hanika21].
 LightDraw draw_light(int k, Surface s, uint sample_index, uint seed)
 {
-    LightSample light = sample_light(lights[k], s.position, r2_point(sample_index, seed + uint(k)));
+    LightSample light = sample_light(lights[k], s.position, sobol_point(sample_index, seed + uint(k)));
     vec3 o = offset_origin(s.position + s.lift, s.normal_geometric, s.normal_geometric);
     if (light.E_perp == vec3(0.0) || dot(s.normal, light.wi) <= 0.0
         || (lights[k].casts_shadow != 0u && trace_any(o, light.wi, light.distance * SHADOW_END, hash(seed + sample_index))))

@@ -104,7 +104,7 @@ bool is_cut_out(uint instance, uint triangle, vec2 bary, uint seed)
 {
     uint material = material_of(instance, triangle);
     vec2 uv = materials[material].alpha_texture >= 0 ? uv_at(triangle, bary) : vec2(0.0);
-    return alpha_at(material, uv, true) <= r2_point(0u, hash(seed ^ hash(instance ^ hash(triangle)))).x;
+    return alpha_at(material, uv, true) <= sobol_point(0u, hash(seed ^ hash(instance ^ hash(triangle)))).x;
 }
 
 // The ray in the space of an instance: d keeps its length in world units, so that t stays what it is.

@@ -36,7 +36,7 @@ void main()
     vec3 o = side_position(s, side, n), E = vec3(0.0);
     mat3 frame = frame_of(n);
     for (uint k = 0u; k < uint(N_RAYS); k++) {
-        vec3 d = frame * cosine_direction(r2_point(k, hash(side)));
+        vec3 d = frame * cosine_direction(sobol_point(k, hash(side)));
         Hit hit;
         bool is_hit = trace_closest(o, d, INFINITE, hash(side) + k, hit);
         links[k * u_n_sides + side] = is_hit ? side_hit(o, d, hit) : NOTHING;

@@ -72,7 +72,7 @@ void direct_light(Seen seen, vec3 f0, uint seed, inout vec3 E, inout vec3 specul
     Surface s = seen.surface;
     float NoV = dot(s.normal, seen.wo), alpha = max(seen.shading.roughness * seen.shading.roughness, 1e-3);
     for (int i = 0; i < N_LIGHTS; i++) {
-        LightSample light = sample_light(lights[i], s.position, r2_point(u_sample, seed + uint(i)));
+        LightSample light = sample_light(lights[i], s.position, sobol_point(u_sample, seed + uint(i)));
         float NoL = dot(s.normal, light.wi);
         if (NoL <= 0.0 || dot(s.normal_geometric, light.wi) <= 0.0 || light.E_perp == vec3(0.0))
             continue;

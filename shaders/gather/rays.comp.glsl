@@ -25,7 +25,7 @@ vec3 diffuse_light(Surface s, uint seed, out vec3 found)
     vec3 E = vec3(0.0);
     found = vec3(0.0);
     for (int k = 0; k < N_RAYS; k++) {
-        vec3 d = frame * cosine_direction(r2_point(u_sample * uint(N_RAYS) + uint(k), seed));
+        vec3 d = frame * cosine_direction(sobol_point(u_sample * uint(N_RAYS) + uint(k), seed));
         if (dot(d, s.normal_geometric) <= 0.0)
             continue;
         Hit hit;

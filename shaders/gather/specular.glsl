@@ -5,7 +5,6 @@
 #include "bind/environment.glsl"
 #include "bind/principled.glsl"
 #include "gather/met.glsl"
-#include "lib/sequence.glsl"
 
 const int N_VERTICES = 24;  // of a path, the pixel's own included
 const float ROUGH = 0.25;   // alpha from which a met surface mirrors what arrives from everywhere, not what one ray finds
@@ -38,7 +37,7 @@ Vertex vertex_at(Surface s, Shading shading, vec3 wo)
 }
 
 // Light that is drawn on one side of the surface and leaves towards wo.
-vec3 drawn_light(Vertex v, bool is_through, uint index, uint seed)
+vec3 drawn_light(Vertex v, bool is_through, uint seed)
 {
     Surface s = v.surface;
     vec3 L = vec3(0.0);
@@ -47,7 +46,7 @@ vec3 drawn_light(Vertex v, bool is_through, uint index, uint seed)
     if (is_through)
         s.normal = -s.normal, s.normal_geometric = -s.normal_geometric, s.lift = vec3(0.0);
     for (int k = 0; k < n_draws(); k++) {
-        LightDraw draw = draw_light(k, s, index, seed);
+        LightDraw draw = draw_light(k, s, u_sample, seed);
         if (draw.E_perp == vec3(0.0))
             continue;
         float pdf;
@@ -83,9 +82,8 @@ Found follow(Vertex v, uint seed)
     vec3 beta = vec3(1.0);
     for (int n = 1; n < N_VERTICES; n++) {
         seed = hash(seed);
-        uint index = shuffled(u_sample, seed);
-        vec2 chances = r2_point(shuffled(u_sample, seed + 1u), seed + 1u);
-        Drawn drawn = sample_specular(v.bsdf, v.wo, r2_point(index, seed + 2u), chances.x);
+        vec2 chances = sobol_point(u_sample, seed + 1u);
+        Drawn drawn = sample_specular(v.bsdf, v.wo, sobol_point(u_sample, seed + 2u), chances.x);
         vec3 d = v.frame * drawn.wi;
         beta *= drawn.weight;
         if (n == 1)
@@ -110,12 +108,12 @@ Found follow(Vertex v, uint seed)
         bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.glass == vec3(0.0));
         vec3 ending = v.bsdf.diffuse + (is_last ? v.bsdf.glossy : vec3(0.0));
         if (ending != vec3(0.0))
-            found.indirect += beta * ending / PI * arriving(met, index, seed);
+            found.indirect += beta * ending / PI * arriving(met, u_sample, seed);
         float chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
         if (is_last || chances.y >= chance)
             break;
         beta /= chance;
-        found.indirect += beta * (drawn_light(v, false, index, seed + 3u) + drawn_light(v, true, index, seed + 4u));
+        found.indirect += beta * (drawn_light(v, false, seed + 3u) + drawn_light(v, true, seed + 4u));
     }
     return found;
 }
@@ -126,8 +124,8 @@ SpecularLight specular_light(Surface s, Shading shading, vec3 wo, uint seed)
     Vertex v = vertex_at(s, shading, wo);
     if (v.bsdf.glossy + v.bsdf.transmission == vec3(0.0))
         return light;
-    light.glossy_direct = drawn_light(v, false, u_sample, seed);
-    light.transmission_direct = drawn_light(v, true, u_sample, hash(seed + 1u));
+    light.glossy_direct = drawn_light(v, false, seed);
+    light.transmission_direct = drawn_light(v, true, hash(seed + 1u));
     Found found = follow(v, hash(seed + 2u));
     if (found.is_through) {
         light.transmission_direct += found.direct;

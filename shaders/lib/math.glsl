@@ -38,12 +38,36 @@ uint hash(uint x)
     return (x >> 22u) ^ x;
 }
 
-// Point number i of the R2 sequence [Roberts18], shifted by the hash of `seed`, in [0, 1)^2. Exact integer arithmetic.
-vec2 r2_point(uint i, uint seed)
+// Owen's scrambling of a number whose bits are reversed: what it does to a bit depends on the ones below it alone
+// [Laine11], with the constants of [Vegdahl21].
+uint scramble_reversed(uint x, uint seed)
 {
-    uvec2 shift = uvec2(hash(seed), hash(seed ^ 0x9e3779b9u));
-    uvec2 p = shift + i * uvec2(3242174889u, 2447445414u);
-    return vec2(p >> 8u) / 16777216.0;
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16u) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+// The second coordinate of Sobol's sequence, bits reversed: Pascal's triangle modulo 2 times the index.
+uint sobol_reversed(uint i)
+{
+    i ^= (i & 0xaaaaaaaau) >> 1u;
+    i ^= (i & 0xccccccccu) >> 2u;
+    i ^= (i & 0xf0f0f0f0u) >> 4u;
+    i ^= (i & 0xff00ff00u) >> 8u;
+    return i ^ (i >> 16u);
+}
+
+// Point number i of Sobol's sequence in the plane, Owen-scrambled, in the order and with the digits that `seed` gives
+// [Burley20]: sequences of different seeds know nothing of each other. In [0, 1)^2, the same bits everywhere.
+vec2 sobol_point(uint i, uint seed)
+{
+    uint index = bitfieldReverse(scramble_reversed(bitfieldReverse(i), hash(seed)));
+    uvec2 p = uvec2(scramble_reversed(index, hash(seed ^ 0x9e3779b9u)),
+                    scramble_reversed(sobol_reversed(index), hash(seed ^ 0x7f4a7c15u)));
+    return vec2(bitfieldReverse(p) >> 8u) / 16777216.0;
 }
 
 // Uniform on the unit disk, area preserving and without seams [Shirley97].

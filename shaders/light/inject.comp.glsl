@@ -57,7 +57,7 @@ void main()
         Light light = lights[i];
         int n_points = light.size == vec2(0.0) ? 1 : LIGHT_POINTS;
         for (int k = 0; k < n_points; k++) {
-            vec2 u = n_points == 1 ? vec2(0.5) : r2_point(uint(k), 0u);
+            vec2 u = n_points == 1 ? vec2(0.5) : sobol_point(uint(k), 0u);
             LightSample s = sample_light(light, p, u);
             vec3 n = has_normal ? normal * (dot(normal, s.wi) < 0.0 ? -1.0 : 1.0) : s.wi;
             if (s.E_perp == vec3(0.0) || (light.casts_shadow != 0u && is_shadowed(at, n, s)))

@@ -25,7 +25,7 @@ void main()
         vec2 uv = HAS_TEXTURES ? uv_at(triangle, v_bary) : vec2(0.0);
         uvec2 pixel = uvec2(gl_FragCoord.xy);
         uint seed = hash(pixel.x + hash(pixel.y + hash(instance ^ hash(triangle ^ hash(u_seed)))));
-        if (alpha_at(material_of(instance, triangle), uv, HAS_TEXTURES) <= r2_point(u_sample, seed).x)
+        if (alpha_at(material_of(instance, triangle), uv, HAS_TEXTURES) <= sobol_point(u_sample, seed).x)
             discard;
     }
     o_visibility = uvec4(instance + 1u, triangle, floatBitsToUint(v_bary));

@@ -12,8 +12,7 @@ import numpy as np
 
 _TERMS = (0.35875, -0.48829, 0.14128, -0.01168)
 
-# Irrational steps as in R2 [Roberts18], but others: R2 chooses points on lamps and cut-outs, and with the same steps
-# each part of a pixel would see only a part of each lamp. Golden ratio and root of 3: as even as Halton's sequence.
+# Irrational steps, golden ratio and root of 3: as even as Halton's sequence, whatever the number of samples.
 _STEPS = np.array([0.6180339887498949, 0.7320508075688772])
 
 

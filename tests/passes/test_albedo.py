@@ -15,7 +15,7 @@ from svo_engine.passes.upload import _materials
 from svo_engine.scene.types import Material
 from tests.compute import evaluate
 
-INCLUDES = ("bind/principled.glsl", "lib/sequence.glsl")
+INCLUDES = ("bind/principled.glsl",)
 PRELUDE = """
 Bsdf bsdf_of(Material m, float c, bool is_back)
 {
@@ -24,7 +24,7 @@ Bsdf bsdf_of(Material m, float c, bool is_back)
 vec3 drawn_weight(Material m, float c, bool is_back, uint i)
 {
     vec3 wo = vec3(sqrt(1.0 - c * c), 0.0, c);
-    return sample_specular(bsdf_of(m, c, is_back), wo, r2_point(i, 1u), r2_point(shuffled(i, 5u), 7u).x).weight;
+    return sample_specular(bsdf_of(m, c, is_back), wo, sobol_point(i, 1u), sobol_point(i, 7u).x).weight;
 }
 """
 ROUGHNESSES = (0.0, 0.03, 0.1, 0.3, 0.5, 0.75, 1.0)

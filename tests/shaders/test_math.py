@@ -60,29 +60,27 @@ def test_frames_are_orthonormal_and_right_handed(device):
     assert np.allclose(np.linalg.det(frame), 1, atol=2e-6)
 
 
-def numpy_hash(x: np.ndarray) -> np.ndarray:
-    x = x.astype("u4") * np.uint32(747796405) + np.uint32(2891336453)
-    x = ((x >> ((x >> np.uint32(28)) + np.uint32(4))) ^ x) * np.uint32(277803737)
-    return (x >> np.uint32(22)) ^ x
+@pytest.mark.parametrize("seed", [0, 7, 2**32 - 1])
+def test_sobol_points_share_the_square_evenly(device, seed):
+    """Of the first 256, as of each 256 after them, every rectangle of area 1/256 with sides of powers of 2 has one."""
+    points = evaluate(device, "vec2", "sobol_point(i, seed)", MATH, i=np.arange(1024, dtype="u4"),
+                      seed=np.full(1024, seed, "u4"))
+    assert points.min() >= 0 and points.max() < 1
+    for part in points.reshape(4, 256, 2):
+        for rows in (1, 2, 4, 8, 16, 32, 64, 128, 256):
+            cell = np.floor(part * (rows, 256 // rows)).astype(int)
+            assert len(np.unique(cell, axis=0)) == 256
 
 
-def test_r2_points_are_those_of_numpy_to_the_bit(device):
-    i = np.array([0, 1, 2, 3, 1000, 2**24, 2**32 - 1] * 3, "u4")
-    seed = np.repeat(np.array([0, 7, 2**32 - 1], "u4"), 7)
-    found = evaluate(device, "vec2", "r2_point(i, seed)", MATH, i=i, seed=seed)
-    shift = np.stack([numpy_hash(seed), numpy_hash(seed ^ np.uint32(0x9E3779B9))], 1)
-    point = shift + i[:, None] * np.array([3242174889, 2447445414], "u4")
-    assert np.array_equal(found, ((point >> 8) / 2.0**24).astype("f4"))
-
-
-def test_r2_points_fill_the_square_evenly(device):
-    """1024 points put 4 into each of 256 cells on average; random ones leave cells empty and fill some with 12."""
-    i = np.arange(1024, dtype="u4")
-    for seed in (0, 5):
-        points = evaluate(device, "vec2", "r2_point(i, seed)", MATH, i=i, seed=np.full(1024, seed, "u4"))
-        assert points.min() >= 0 and points.max() < 1
-        counts = np.histogram2d(points[:, 0], points[:, 1], 16, ((0, 1), (0, 1)))[0]
-        assert counts.min() >= 1 and counts.max() <= 8
+def test_sobol_points_of_other_seeds_know_nothing_of_each_other(device):
+    """Of 4096 pairs of points of two sequences, 16 fall into each of 256 cells on average; that many in a cell has a
+    standard deviation of 4.
+    """
+    i = np.arange(4096, dtype="u4")
+    a, b = (evaluate(device, "vec2", f"sobol_point(i, {seed}u)", MATH, i=i) for seed in (3, 4))
+    for x in a.T:
+        for y in b.T:
+            assert np.abs(np.histogram2d(x, y, 16, ((0, 1), (0, 1)))[0] - 16).max() < 5 * 4
 
 
 def test_hash_has_no_pattern(device):
