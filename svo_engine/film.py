@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .errors import SvoError
+from .settings import PASSES
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +33,11 @@ class Film:
         return width, height
 
     def save(self, path: str | Path) -> None:
-        """Write by the ending of `path`: .npz all planes as they are, .png or .exr the Combined plane; or SvoError."""
+        """Write by the ending of `path`, or SvoError.
+
+        .npz has all planes as they are, .png the Combined plane. .exr has Combined as RGBA, and the channels of every
+        other plane in a layer of its name, such as "Depth.Z".
+        """
         path = Path(path)
         writers = {".npz": _save_npz, ".png": _save_png, ".exr": _save_exr}
         if path.suffix not in writers:
@@ -74,5 +79,9 @@ def _save_exr(film: Film, path: Path) -> None:
     import OpenEXR
 
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    with OpenEXR.File(header, {"RGBA": np.ascontiguousarray(film.planes["Combined"][::-1])}) as file:
+    channels = {"RGBA": np.ascontiguousarray(film.planes["Combined"][::-1])}
+    for name, plane in film.planes.items():
+        for i, letter in enumerate(PASSES.get(name, "")):
+            channels[f"{name}.{letter}"] = np.ascontiguousarray(plane[::-1, :, i])
+    with OpenEXR.File(header, channels) as file:
         file.write(str(path))

@@ -89,3 +89,14 @@ class TestUnwritable:
         path = tmp_path / "file" / f"a{ending}"
         with pytest.raises(SvoError, match=f"Cannot write '{path}': "):
             film.save(path)
+
+
+def test_exr_has_a_layer_for_each_render_pass(film, tmp_path):
+    film.planes["Normal"] = np.random.default_rng(2).normal(size=(3, 5, 3)).astype("f4")
+    film.save(tmp_path / "a.exr")
+    with OpenEXR.File(str(tmp_path / "a.exr"), separate_channels=True) as file:
+        channels = {name: channel.pixels[::-1] for name, channel in file.channels().items()}
+    assert channels.keys() == {*"RGBA", "Depth.Z", "Normal.X", "Normal.Y", "Normal.Z"}
+    assert np.array_equal(channels["Depth.Z"], film.planes["Depth"][..., 0])
+    assert all(np.array_equal(channels[f"Normal.{letter}"], film.planes["Normal"][..., i])
+               for i, letter in enumerate("XYZ"))

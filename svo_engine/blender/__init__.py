@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import atexit
 
-from . import compare, engine, panels, properties, session, viewport
+from . import compare, engine, panels, properties, render_passes, session, view_layer_panels, viewport
 
-_PARTS = (properties, engine, compare, panels)
+_PARTS = (properties, render_passes, engine, compare, panels, view_layer_panels)
 
 
 def register() -> None:

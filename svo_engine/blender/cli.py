@@ -22,6 +22,7 @@ from .comparison import compare as compare_runs
 from .extract import extract
 from .host_errors import as_svo_errors
 from .properties import settings_of
+from .render_passes import ask_for
 from .render_watch import render_result
 from .runs import cycles_run, svo_run
 
@@ -30,6 +31,7 @@ Size = tuple[int, int] | None
 
 _FORMATS = {".png": {"media_type": "IMAGE", "file_format": "PNG"},
             ".exr": {"media_type": "IMAGE", "file_format": "OPEN_EXR", "color_depth": "32"}}
+_LAYERED = {"media_type": "MULTI_LAYER_IMAGE", "file_format": "OPEN_EXR_MULTILAYER"}
 
 
 def render(file: Path, pictures: Sequence[Path], texts: Texts, size: Size, frame: int | None) -> dict[str, Any]:
@@ -40,13 +42,14 @@ def render(file: Path, pictures: Sequence[Path], texts: Texts, size: Size, frame
     with opened(file, texts, size, frame) as (scene, warnings):
         scene.render.engine = "SVO_ENGINE"
         scene.render.filepath = str(pictures[0].resolve())
-        _set_format(scene, pictures[0])
+        is_layered = any(name == "passes" for name, _ in texts)
+        _set_format(scene, pictures[0], is_layered)
         with as_svo_errors():
             bpy.ops.render.render(write_still=True)
         if not session.last_stats:
             raise SvoError(f"There is no picture of '{file}'")
         for path in pictures[1:]:
-            _set_format(scene, path)
+            _set_format(scene, path, is_layered)
             with as_svo_errors():
                 bpy.data.images[render_result()].save_render(str(path.resolve()), scene=scene)
         full, percentage = (scene.render.resolution_x, scene.render.resolution_y), scene.render.resolution_percentage
@@ -112,7 +115,11 @@ def opened(file: Path, texts: Texts, size: Size, frame: int | None
             if scene.camera is None:
                 raise SceneError(f"Scene '{scene.name}' in '{file}' has no camera")
             for name, _ in texts:
-                setattr(scene.svo, name, getattr(checked, name))
+                if name == "passes":
+                    for layer in scene.view_layers:
+                        ask_for(layer, checked.passes)
+                else:
+                    setattr(scene.svo, name, getattr(checked, name))
             if size is not None:
                 scene.render.resolution_x, scene.render.resolution_y = size
                 scene.render.resolution_percentage = 100
@@ -129,7 +136,9 @@ def _warnings(reports: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(line.removeprefix(mark) for line in reports.splitlines() if line.startswith(mark)))
 
 
-def _set_format(scene: bpy.types.Scene, path: Path) -> None:
-    for name, value in _FORMATS[path.suffix].items():
+def _set_format(scene: bpy.types.Scene, path: Path, is_layered: bool) -> None:
+    """is_layered: whether an EXR holds all passes."""
+    layered = _LAYERED if is_layered and path.suffix == ".exr" else {}
+    for name, value in (_FORMATS[path.suffix] | layered).items():
         if name in scene.render.image_settings.bl_rna.properties:
             setattr(scene.render.image_settings, name, value)

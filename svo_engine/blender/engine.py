@@ -10,6 +10,7 @@ from contextlib import contextmanager
 import bpy
 
 from ..errors import Cancelled, SvoError
+from . import render_passes
 from .final import Frame, extract_frame, render_frame
 from .viewport import Viewport
 
@@ -44,6 +45,10 @@ class SVORenderEngine(bpy.types.RenderEngine):
             for warning in () if self.is_preview else frame.scene.warnings:
                 self.report({"WARNING"}, warning)
             render_frame(self, frame)
+
+    def update_render_passes(self, scene: bpy.types.Scene, renderlayer: bpy.types.ViewLayer) -> None:
+        """Whenever Blender needs to know which passes a view layer will have."""
+        render_passes.list_passes(self, scene, renderlayer)
 
     def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
         """Once for a new viewport, and after each change of the scene."""

@@ -16,6 +16,7 @@ from . import present, session
 from .extract import border, extract
 from .extract.camera import read_camera
 from .properties import settings_of
+from .render_passes import passes_of
 
 # A preview is an icon or a small sphere: it must come at once
 _PREVIEW_SETTINGS = RenderSettings(samples=4, cache_resolution="32", bounces=2)
@@ -34,7 +35,10 @@ class Frame:
 
 def extract_frame(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Frame:
     """Copy the scene, while Blender keeps it still. SceneError if it cannot be rendered."""
-    settings = _PREVIEW_SETTINGS if engine.is_preview else settings_of(depsgraph.scene)
+    settings = _PREVIEW_SETTINGS
+    if not engine.is_preview:
+        passes = passes_of(depsgraph.scene, depsgraph.view_layer)
+        settings = replace(settings_of(depsgraph.scene), passes=passes)
     return Frame(extract(depsgraph), settings, border(depsgraph.scene), depsgraph.view_layer.name)
 
 

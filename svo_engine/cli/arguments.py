@@ -9,7 +9,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from ..settings import RenderSettings, specs
+from ..settings import PASSES, RenderSettings, specs
 from . import bench, commands
 from .values import FRAME_LIMITS, assignment, integer, named, size
 
@@ -31,6 +31,8 @@ def _add_render(subparsers: Any) -> None:
     for name, metavar in (("method", "NAME"), ("samples", "N"), ("time_limit", "SECONDS")):
         command.add_argument("--" + name.replace("_", "-"), dest="values", action="append", default=[], metavar=metavar,
                              type=named(name), help=specs()[name].description)
+    command.add_argument("--passes", dest="values", action="append", metavar="NAME,...", type=named("passes"),
+                         help=f"render passes that the .exr holds too: {', '.join(PASSES)}")
     _add_settings(command)
     command.add_argument("--stats", type=Path, metavar="FILE.json", help="write times, counts and versions there")
 

@@ -67,7 +67,8 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: G
         u_albedo=gpu_scene.albedo, u_radiance=lit.radiance, u_cone_offset=settings.cone_offset,
         u_cone_step=settings.cone_step, u_cone_distance=settings.cone_distance * grid.n, u_sample=sample,
         u_seed=settings.seed, u_ring_angle=settings.cone_ring_angle,
-        u_tan_half_aperture=tan(settings.cone_aperture / 2), u_tan_half_shadow=tan(settings.shadow_aperture / 2), u_specular_cone=settings.specular_cone)
+        u_tan_half_aperture=tan(settings.cone_aperture / 2), u_tan_half_shadow=tan(settings.shadow_aperture / 2),
+        u_specular_cone=settings.specular_cone)
 
 
 def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh, gbuffer: GBuffer, incident: Incident,

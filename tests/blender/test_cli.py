@@ -85,6 +85,14 @@ def test_render_writes_what_blender_would(root, blend, tmp_path):
     assert hashlib.sha256(blend.read_bytes()).digest() == digest
 
 
+def test_passes_make_the_exr_a_multilayer_one(root, blend, tmp_path):
+    succeed(root, "render", blend, "--out", tmp_path / "out/", "--passes", "Depth,Glossy Color", *QUICK)
+    with OpenEXR.File(str(tmp_path / "out/scene.exr"), separate_channels=True) as file:
+        passes = {name.split(".")[-2] for part in file.parts for name in part.channels}
+    assert passes == {"Combined", "Depth", "Glossy Color"}
+    assert (tmp_path / "out/scene.png").stat().st_size > 100
+
+
 def test_extracted_scene_gives_the_same_picture(root, blend, tmp_path):
     succeed(root, "extract", blend, tmp_path / "scene.npz", "--frame", 10)
     succeed(root, "render", tmp_path / "scene.npz", "--out", tmp_path / "extracted.exr", *QUICK)
