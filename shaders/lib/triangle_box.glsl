@@ -103,8 +103,8 @@ float inverse_of(float d)
 // polygon is the area of its part in the unit square, and that part's first moments, without any corner of the part.
 vec3 under_segment(vec2 p, vec2 q)
 {
-    vec2 d = q - p, inverse = vec2(inverse_of(d.x), inverse_of(d.y));
-    vec2 zero = -p * inverse, one = (1.0 - p) * inverse;         // where x and y are 0 and 1
+    vec2 d = q - p, per = vec2(inverse_of(d.x), inverse_of(d.y));
+    vec2 zero = -p * per, one = (1.0 - p) * per;                 // where x and y are 0 and 1
     vec2 first = min(zero, one), last = max(zero, one);
     float start = clamp(first.x, 0.0, 1.0), end = clamp(last.x, 0.0, 1.0);
     vec4 at = vec4(start, clamp(vec2(first.y, last.y), start, end), end);  // between these Y is straight
