@@ -18,7 +18,7 @@ def test_an_integrating_sphere(session):
     """Wherever the lamp: I cos / d^2 from itself and rho I / (R^2 (1 - rho)) from the sphere, everywhere the same."""
     rho, at = 0.6, np.array([0.3, -0.2, 0.4])
     camera = inside(scenes.look((0, 0, 0), (0, 1, 0.1)))
-    scene = scenes.scene(scenes.Thing(scenes.sphere("Ball", 1.0, 24), glow(0.0, rho)), camera=camera,
+    scene = scenes.scene(scenes.Thing(scenes.sphere("Ball", 1.0, 40), glow(0.0, rho)), camera=camera,
                          lights=(scenes.lamp("POINT", at, emitted=2.0),))
     found = shot(session, scene, cache_rays=8, samples=16)[..., 0] * np.pi / rho
     p = directions(camera)
