@@ -50,6 +50,8 @@ def main() -> int:
     parser.add_argument("--resolutions", nargs="+", type=int, default=[64, 128, 256])
     parser.add_argument("--points", type=int, default=32768, help="that gather light (default: %(default)s)")
     options = parser.parse_args()
+    if options.points < N_COMPARED:
+        parser.error(f"--points must be at least {N_COMPARED}")
     device = Device()
     print(f"{device.info['renderer']}; {options.points} points of {N_RAYS} rays; millions of rays a second"
           f"{' of one core' if device.profiler.is_software else ''}\n")
