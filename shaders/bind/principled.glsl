@@ -5,6 +5,8 @@
 #include "bind/materials.glsl"
 #include "lib/bsdf.glsl"
 
+const bool HAS_SPECULAR = true;  // any material that is more than diffuse
+
 // How much brighter light between facets makes a layer that sends back E of white light after one scattering, E_mean over
 // all directions: what is missing goes on to other facets, which reflect f_mean of it [Kulla17] [Turquin19].
 vec3 with_bounces(float E, float E_mean, vec3 f_mean)
@@ -67,4 +69,23 @@ Bsdf principled(Material m, Shading shading, float NoV, bool is_back)
     rest *= 1.0 - clamp(m.transmission, 0.0, 1.0);
     b.diffuse = max(shading.base_color, 0.0) * add_coat(b, rest, m, NoV);
     return b;
+}
+
+// Share of light from everywhere that comes back to everywhere, through all layers: what light that was spread sees of a
+// surface. A metal is as white as its mean reflectance. Glass is dark, as in Cycles without caustics.
+vec3 mean_albedo(Material m, Shading shading)
+{
+    vec3 color = clamp(shading.base_color, 0.0, 1.0);
+    if (!HAS_SPECULAR)
+        return color;
+    float roughness = clamp(shading.roughness, 0.0, 1.0), metallic = clamp(shading.metallic, 0.0, 1.0);
+    float f0 = 2.0 * max(m.specular_level, 0.0) * f0_of_ior(m.ior), ior = ior_of_f0(f0);
+    vec4 means = dielectric_mean(roughness, ior);
+    vec3 metal = f82_mean(color, f82_dip(color, min(m.specular_tint, 1.0)));
+    vec3 coat_f0 = clamp(f0 * m.specular_tint, 0.0, 1.0), coat = vec3(0.0);
+    if (f0 > 0.0)
+        coat = (coat_f0 * (means.z - means.w) + means.w) * with_bounces(means.z, means.z, f_from(coat_f0, f_dielectric_mean(ior), ior));
+    float through = 1.0 - max(coat.r, max(coat.g, coat.b));
+    return metallic * metal * means.z * with_bounces(means.z, means.z, metal)
+         + (1.0 - metallic) * (1.0 - clamp(m.transmission, 0.0, 1.0)) * (coat + through * color);
 }

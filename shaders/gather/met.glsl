@@ -3,6 +3,7 @@
 
 #include "bind/cache.glsl"
 #include "bind/lights.glsl"
+#include "bind/principled.glsl"
 #include "bind/surface.glsl"
 
 const bool HAS_TEXTURES = false;
@@ -32,12 +33,11 @@ vec3 arriving(Met met, uint sample_index, uint seed)
     return met.side == NOTHING ? E : E + cache[cache_entry(INDIRECT, met.side)].rgb;
 }
 
-// Light that a met surface reflects diffusely against a ray. A metal counts as white as its colour: what it mirrors is
-// taken as its share of what arrives from everywhere.
+// Light that a met surface reflects against a diffuse ray: what it mirrors is taken as its share of what arrives from
+// everywhere.
 vec3 reflected(Met met, uint seed)
 {
-    float opaque = 1.0 - materials[met.surface.material].transmission;
-    return met.shading.base_color * opaque / PI * arriving(met, u_sample, seed);
+    return mean_albedo(materials[met.surface.material], met.shading) / PI * arriving(met, u_sample, seed);
 }
 
 // All light that leaves a met surface against a diffuse ray.

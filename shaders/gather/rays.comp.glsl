@@ -11,7 +11,6 @@
 #include "gather/specular.glsl"
 
 const bool HAS_INDIRECT = true;   // anything that a ray could find
-const bool HAS_SPECULAR = true;   // any material that reflects
 const int N_RAYS = 4;             // diffuse rays
 
 uniform uint u_first;

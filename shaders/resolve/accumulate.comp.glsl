@@ -12,7 +12,6 @@
 #include "bind/principled.glsl"
 
 const bool HAS_TEXTURES = false;
-const bool HAS_SPECULAR = true;
 
 layout(local_size_x = 64) in;
 

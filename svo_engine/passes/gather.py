@@ -74,10 +74,8 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: G
 def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh, gbuffer: GBuffer, incident: Incident,
                 settings: RenderSettings, sample: int) -> None:
     """Fill `incident` for one sample by rays."""
-    constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "HAS_TEXTURES": gpu_scene.has_textures,
-                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_SPECULAR": gpu_scene.has_specular,
-                 "HAS_ALPHA": gpu_scene.has_alpha, "HAS_GLASS": gpu_scene.has_glass,
-                 "N_RAYS": settings.gather_rays, **incident.constants(), **bvh.constants()}
+    constants = {"N_LIGHTS": len(gpu_scene.scene.lights), **gpu_scene.surface_constants(),
+                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_ALPHA": gpu_scene.has_alpha, "N_RAYS": settings.gather_rays, **incident.constants(), **bvh.constants()}
     device.dispatch(
         RAYS, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
         **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), u_incident=incident.layers,

@@ -21,6 +21,7 @@ TREE = ("u_n_top_words", "u_n_node_words")
 MARK_NODES = Pass(("octree/mark_nodes.comp.glsl",), (*GEOMETRY, "StripFirst", "Octree"), uniforms=WORK)
 MARK = Pass(("octree/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Octree"), uniforms=(*WORK, *TREE))
 ACCUMULATE = Pass(("octree/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS, "StripFirst", "Octree", "Sums"),
+                  textures=("u_albedo",),
                   uniforms=(*WORK, *TREE, "u_emission_unit"))
 AVERAGE = Pass(("octree/average.comp.glsl",), ("Sums", "Surfels"), uniforms=(*GRID, "u_emission_unit"))
 
@@ -98,8 +99,8 @@ def _surfels(device: Device, scope: GpuScope, scratch: GpuScope, gpu_scene: GpuS
     constants = {"HAS_EMISSION": has_emission, "SUMS": 16 if has_emission else 13}
     sums = scratch.buffer("surfel sums", 4 * constants["SUMS"] * n_surfels, clear=True)
     unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
-    device.dispatch(ACCUMULATE, n_strips, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
-                    **work, **gpu_scene.materials, **unit)
+    device.dispatch(ACCUMULATE, n_strips, {**constants, **gpu_scene.surface_constants()},
+                    **work, **gpu_scene.materials, **unit, u_albedo=gpu_scene.albedo)
     surfels = scope.buffer("surfels", layouts.dtype(layouts.SURFEL).itemsize * n_surfels)
     device.dispatch(AVERAGE, n_surfels, constants, Surfels=surfels, **grid.uniforms(), **unit)
     return surfels

@@ -70,9 +70,7 @@ def make_film(scope: GpuScope, view: View, planes: tuple[str, ...], centre: np.n
 
 def resolve(device: Device, gpu_scene: GpuScene, gbuffer: GBuffer, incident: Incident, film: GpuFilm) -> None:
     """Add one sample to `film`."""
-    constants = {"HAS_TEXTURES": gpu_scene.has_textures, "HAS_SPECULAR": gpu_scene.has_specular,
-                 "HAS_GLASS": gpu_scene.has_glass, **film.constants(),
-                 **incident.constants()}
+    constants = {**gpu_scene.surface_constants(), **film.constants(), **incident.constants()}
     device.dispatch(ACCUMULATE, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials,
                     **gpu_scene.world(), **gbuffer.uniforms(), u_film=film.sums,
                     u_incident=incident.layers, u_albedo=gpu_scene.albedo,

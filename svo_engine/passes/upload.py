@@ -57,6 +57,10 @@ class GpuScene:
         """Whether anything in the scene sends out light at all, the world included."""
         return bool(self.scene.lights) or self.emission_unit > 0 or max(self.scene.world.radiance) > 0
 
+    def surface_constants(self) -> dict[str, bool]:
+        """What bind/principled.glsl can leave out, and textures."""
+        return {"HAS_TEXTURES": self.has_textures, "HAS_SPECULAR": self.has_specular, "HAS_GLASS": self.has_glass}
+
     def world(self) -> dict[str, Any]:
         """The uniforms of bind/environment.glsl."""
         world = self.scene.world

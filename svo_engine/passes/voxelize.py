@@ -27,6 +27,7 @@ COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "StripFirst"), uniforms=
 MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Occupancy"), uniforms=WORK)
 ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
                   (*GEOMETRY, *MATERIALS, "StripFirst", "Occupancy", "VoxelFirst", "Sums"),
+                  textures=("u_albedo",),
                   uniforms=(*WORK, "u_emission_unit"))
 AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Sums", "Voxels"), uniforms=("u_emission_unit",))
 BLOCK_SUMS = Pass(("voxelize/block_sums.comp.glsl",), ("Values", "BlockSums"), uniforms=("u_n_values",))
@@ -85,8 +86,8 @@ def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
         constants = {"HAS_EMISSION": has_emission, "SUMS": 12 if has_emission else 9}
         sums = scratch.buffer("voxel sums", 4 * constants["SUMS"] * n_voxels, clear=True)
         unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
-        device.dispatch(ACCUMULATE, n_strips, {**constants, "HAS_TEXTURES": gpu_scene.has_textures},
-                        **work, **gpu_scene.materials, **bits, **unit)
+        device.dispatch(ACCUMULATE, n_strips, {**constants, **gpu_scene.surface_constants()},
+                        **work, **gpu_scene.materials, **bits, **unit, u_albedo=gpu_scene.albedo)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
         device.dispatch(AVERAGE, n_voxels, constants, Voxels=voxels, **unit)
     return Voxels(scope, grid, occupancy, voxels, n_voxels)
