@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import SvoError
+from ..gpu.thread import GpuThread
 from ..render import Session
 from ..scene import store
 from ..scene.types import Scene
@@ -58,9 +59,9 @@ def run_core(plan: Plan) -> None:
             for rungs in ladders:
                 found += core.ladder_rows(session, name, scene, truth, rungs, size, plan.longest, lines)
                 edited += core.edit_rows(session, name, scene, rungs[0], size, lines)
+                tables.write(plan.out, tables.Rendered, found)
+                tables.write(plan.out, tables.Edited, edited)
         host.write(plan.out, session.device_info()["renderer"])
-    tables.write(plan.out, tables.Rendered, found)
-    tables.write(plan.out, tables.Edited, edited)
     _print_verdicts(found)
 
 
@@ -86,10 +87,12 @@ def _print_verdicts(rows: Sequence[tables.Rendered]) -> None:
 def _thesis_rows(main: list[tuple[str, Scene]], balls: list[tuple[str, Scene]],
                  lines: Lines) -> Iterator[tables.Timed]:
     for name, scene in main:
-        yield from thesis.voxelization_rows(name, scene, thesis.SIZES, lines)
         yield from thesis.frame_rows(name, scene, lines)
-    for name, scene in balls:
-        yield from thesis.voxelization_rows(name, scene, thesis.TRIANGLES_SIZES, lines)
+    with closing(GpuThread()) as thread:
+        for name, scene in main:
+            yield from thesis.voxelization_rows(thread, name, scene, thesis.SIZES, lines)
+        for name, scene in balls:
+            yield from thesis.voxelization_rows(thread, name, scene, thesis.TRIANGLES_SIZES, lines)
 
 
 def run_scaling(plan: Plan) -> None:

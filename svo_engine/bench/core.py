@@ -81,4 +81,4 @@ class Shooter:
         *_, film = self._session.films(scene, view, settings, interval=math.inf)
         seconds = time.perf_counter() - start
         return Shot(seconds, film.planes["Combined"][..., :3], film.n_samples, film.stats["times_ms"],
-                    film.stats["counts"]["device bytes"])
+                    film.stats["counts"]["device bytes"], film.stats["limits"])

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import GpuError
 from .progress import Lines
 from .references import NOTHING, Reference, measure
 from .tables import Rendered, pack, stages
@@ -33,6 +34,7 @@ class Shot:
     """One render: how long it took, and the picture (h, w, 3) f4, scene-linear, row 0 at the bottom.
 
     parts  milliseconds: GPU passes as `stage/entry`, host steps as words; n_bytes  on the device, 0 where unknown
+    limits  sentences on what was done otherwise than asked, because the device has too little room
     """
 
     seconds: float
@@ -40,6 +42,7 @@ class Shot:
     n_samples: int
     parts: Mapping[str, float] = field(default_factory=dict)
     n_bytes: int = 0
+    limits: Sequence[str] = ()
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,8 @@ def climb(rungs: Sequence[Rung], shoot: Callable[[Rung], Shot], longest: float, 
     """Each rung with its timed shots; a first one is thrown away, so that all is compiled and loaded.
 
     Left out, with a sentence: rungs that would take more than `longest` seconds by what the two before them
-    took, and time limits outside the times of the rungs with samples, which would show what those show.
+    took; what does not fit the device; and, without one, time limits outside the times of the rungs with samples,
+    which would show what those show.
     """
     known: list[tuple[float, float]] = []  # cost and seconds of the rungs with samples
     for i, rung in enumerate(rungs):
@@ -87,9 +91,15 @@ def climb(rungs: Sequence[Rung], shoot: Callable[[Rung], Shot], longest: float, 
             lines.skip(rung.cost, f"{what} is left out: it would take about {seconds:.0f} s")
             continue
         lines.step(what, rung.cost)
-        if not i:
-            shoot(rung)
-        shots = repeat(partial(shoot, rung))
+        try:
+            if not i:
+                shoot(rung)
+            shots = repeat(partial(shoot, rung))
+        except GpuError as error:
+            lines.say(f"{what} is left out: {error}")
+            continue
+        for sentence in shots[-1].limits:
+            lines.say(f"{what}: {sentence}")
         if not limit:
             known.append((rung.cost, median(shots)))
         yield rung, shots

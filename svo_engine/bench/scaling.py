@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from ..errors import GpuError
 from ..render import Session
 from ..scene.types import Scene
 from .core import Shooter
@@ -62,14 +63,20 @@ def points(is_software: bool) -> list[Point]:
 
 
 def rows(todo: Sequence[Point], session: Session, lines: Lines) -> Iterator[Scaled]:
-    """Measure every point of `todo`; the scene of neighbours with equal arguments is made once."""
+    """Measure every point of `todo` that fits the device; neighbours with equal arguments share a scene."""
     device, last, scene = session.device_info()["renderer"], None, hall()
     for point in todo:
-        lines.step(f"{point.axis}: {point.x:,.0f}")
+        lines.step(what := f"{point.axis}: {point.x:,.0f}")
         if point.scene != last:
             last, scene = point.scene, hall(**point.scene)
-        shoot = partial(_shoot, Shooter(session, point.size), scene, point.settings)
-        shoot()
+        try:
+            shoot = partial(_shoot, Shooter(session, point.size), scene, point.settings)
+            limits = shoot().limits
+        except GpuError as error:
+            limits = [str(error)]
+        if limits:
+            lines.say(f"{what} is left out: {limits[0]}")
+            continue
         shots = repeat(shoot)
         yield Scaled(point.axis, device, point.x, median(shots), len(shots), pack(shots[-1].parts), shots[-1].n_bytes)
 

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from ..errors import GpuError
 from ..gpu.device import Device
 from ..gpu.thread import GpuThread
 from ..passes.upload import upload
@@ -31,17 +32,17 @@ FRAME = {"method": "cones", "resolution": "128", "samples": 1, "denoise": False}
 DIRECT = {**FRAME, "cone_distance": 0.01, "specular_cone": False}
 
 
-def voxelization_rows(name: str, scene: Scene, sizes: Sequence[int], lines: Lines) -> Iterator[Timed]:
-    """Occupancy alone, and voxels with their attributes, at each number of voxels a side."""
-    thread = GpuThread()
-    try:
-        for n in sizes:
-            for what, work in (("occupancy", occupy), ("voxels", voxelize_whole)):
-                lines.step(f"{name}: {what} at {n} cubed")
+def voxelization_rows(thread: GpuThread, name: str, scene: Scene, sizes: Sequence[int],
+                      lines: Lines) -> Iterator[Timed]:
+    """Occupancy alone, and voxels with their attributes, at each number of voxels a side that fits the device."""
+    for n in sizes:
+        for what, work in (("occupancy", occupy), ("voxels", voxelize_whole)):
+            lines.step(step := f"{name}: {what} at {n} cubed")
+            try:
                 yield thread.call(lambda device, n=n, what=what, work=work:  # type: ignore[misc]
                                   _timed(device, name, scene, n, what, work))
-    finally:
-        thread.close()
+            except GpuError as error:
+                lines.say(f"{step} is left out: {error}")
 
 
 def frame_rows(name: str, scene: Scene, lines: Lines) -> Iterator[Timed]:

@@ -61,4 +61,4 @@ def _shoot(render: Callable[[Mapping[str, Any]], Any], rung: Rung) -> Shot:
     done = render(rung.values)
     stats = done.stats
     return Shot(done.seconds, done.picture, stats.get("n_samples", rung.values.get("samples", 0)),
-                stats.get("times_ms", {}), stats.get("counts", {}).get("device bytes", 0))
+                stats.get("times_ms", {}), stats.get("counts", {}).get("device bytes", 0), stats.get("limits", ()))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +14,8 @@ import pytest
 from svo_engine.bench import edits, references, scaling, shapes, tables, thesis
 from svo_engine.bench.progress import Lines, progress
 from svo_engine.cli import main
+from svo_engine.errors import GpuError
+from svo_engine.gpu.thread import GpuThread
 from svo_engine.scene import store
 from svo_engine.scene.camera import make_view
 from svo_engine.settings import RenderSettings
@@ -124,8 +127,9 @@ def test_the_walls_of_a_hall_face_inwards():
 def test_tables_of_the_thesis(monkeypatch):
     monkeypatch.setattr(thesis, "FRAME_SIZE", SIZE)
     monkeypatch.setattr(thesis, "FRAME", {**thesis.FRAME, "resolution": "32"})
-    rows = [*thesis.voxelization_rows("room", scenes.cornell(), (32,), Lines()),
-            *thesis.frame_rows("room", scenes.cornell(), Lines())]
+    with closing(GpuThread()) as thread:
+        rows = list(thesis.voxelization_rows(thread, "room", scenes.cornell(), (32,), Lines()))
+    rows += thesis.frame_rows("room", scenes.cornell(), Lines())
     assert [row.what for row in rows] == ["occupancy", "voxels", "direct light", "whole frame"]
     assert all(row.gpu_ms > 0 and row.n_runs for row in rows)
     assert rows[1].n_voxels > 0
@@ -145,6 +149,16 @@ def test_scaling_measures_each_point(session):
     rows = list(scaling.rows(todo, session, Lines()))
     assert [(row.axis, row.x) for row in rows] == [("lamps", 1), ("lamps", 2)]
     assert all(row.seconds > 0 and row.n_bytes > 0 and "gather/rays" in tables.unpack(row.parts) for row in rows)
+
+
+def test_what_does_not_fit_the_device_is_left_out_with_a_sentence(session, monkeypatch, capsys):
+    def refuse(*_):
+        raise GpuError("Too large")
+
+    monkeypatch.setattr(scaling.Shooter, "shoot", refuse)
+    todo = [scaling.Point("lamps", 1, SIZE, {"n_triangles": 100}, {"samples": 1})]
+    assert list(scaling.rows(todo, session, Lines())) == []
+    assert "lamps: 1 is left out: Too large" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("is_software", [False, True])

@@ -11,6 +11,7 @@ import pytest
 from svo_engine.bench import rungs
 from svo_engine.bench.progress import Lines
 from svo_engine.bench.rungs import Shot, climb, expected, ladder, repeat
+from svo_engine.errors import GpuError
 from svo_engine.settings import RenderSettings
 
 PICTURE = np.zeros((2, 2, 3), "f4")
@@ -90,6 +91,16 @@ def test_time_limits_between_the_quickest_and_the_slowest_rung():
     found, _, _ = climbed(ladder("rays", (1, 16), (0.1, 0.5, 2, 50)),
                           lambda rung: rung.values.get("time_limit") or 0.3 * rung.cost)
     assert found == ["1 sample", "16 samples", "0.5 s", "2 s"]
+
+
+def test_what_does_not_fit_the_device_is_left_out():
+    def refuse(rung):
+        if rung.name == "1 sample":
+            raise GpuError("Too large")
+        return 0.1
+
+    found, _, said = climbed(ladder("cycles", (1, 4)), refuse)
+    assert (found, said) == (["4 samples"], ["scene: cycles, 1 sample is left out: Too large"])
 
 
 def test_expected_times():

@@ -48,7 +48,7 @@ def _voxelization(rows: Sequence[Timed]) -> str:
         return [str(n), number(bits.gpu_ms), number(bits.whole_ms), number(voxels.gpu_ms), number(voxels.whole_ms),
                 factor(THESIS.get(n, 0)), factor(CUDA_VOXELIZER.get(n, 0)), f"{voxels.n_voxels:,}"]
 
-    return table(headers, (line(n) for what, n in found if what == "occupancy"))
+    return table(headers, (line(n) for what, n in found if what == "occupancy" and ("voxels", n) in found))
 
 
 def _frames(rows: Sequence[Timed]) -> str:
