@@ -134,18 +134,19 @@ def test_other_normals_are_told(empty, kind):
     ("BsdfDiffuse", {}, {}),
     ("BsdfAnisotropic", {"Roughness": 0.3}, {"metallic": 1, "roughness": 0.3, "specular_level": 0.5}),
     ("BsdfGlass", {"Roughness": 0.3, "IOR": 1.3},
-     {"transmission": 1, "ior": 1.3, "roughness": 0.3, "specular_level": 0.5})])
+     {"transmission": 1, "ior": 1.3, "roughness": 0.3, "specular_level": 0.5, "base_color": (0.04, 0.16, 0.36)})])
 def test_simple_shaders(empty, kind, inputs, expected):
     nodes = material()
     found = only_material(nodes, nodes.new(kind, Color=(0.2, 0.4, 0.6, 1), **inputs))
-    assert_same(found, replace(BLACK, base_color=(0.2, 0.4, 0.6), **expected))
+    assert_same(found, replace(BLACK, **{"base_color": (0.2, 0.4, 0.6), **expected}))
 
 
 @pytest.mark.skipif(not hasattr(bpy.types, "ShaderNodeBsdfMetallic"), reason="Blender 4.3 brought it")
 def test_metallic_shader(empty):
     nodes = material()
-    found = only_material(nodes, nodes.new("BsdfMetallic", Base_Color=(0.2, 0.4, 0.6, 1), Roughness=0.3))
-    assert_same(found, Material("Material", (0.2, 0.4, 0.6), 0.3, 1.0))
+    metal = nodes.new("BsdfMetallic", Base_Color=(0.2, 0.4, 0.6, 1), Edge_Tint=(0.9, 0.5, 0.1, 1), Roughness=0.3)
+    assert_same(only_material(nodes, metal),
+                Material("Material", (0.2, 0.4, 0.6), 0.3, 1.0, specular_tint=(0.9, 0.5, 0.1)))
 
 
 @pytest.mark.parametrize("kind", ["Emission", "Background"])

@@ -54,15 +54,28 @@ def _diffuse(reader: Reader, port: Port) -> Material:
 
 
 def _glossy(reader: Reader, port: Port) -> Material:
-    color = "Base Color" if port.node.bl_idname == "ShaderNodeBsdfMetallic" else "Color"
-    base, roughness = reader.value(port, color), reader.value(port, "Roughness")
+    return _metal(reader, port, reader.value(port, "Color"))
+
+
+def _metallic(reader: Reader, port: Port) -> Material:
+    return replace(_metal(reader, port, reader.value(port, "Base Color")),
+                   specular_tint=reader.constant(port, "Edge Tint", 1.0))
+
+
+def _metal(reader: Reader, port: Port, base: Value) -> Material:
+    roughness = reader.value(port, "Roughness")
     return replace(
         _with_normal(reader, port, Material("")), metallic=1.0, base_color=base.color, base_color_texture=base.texture,
         roughness=roughness.number, roughness_texture=roughness.texture)
 
 
 def _glass(reader: Reader, port: Port) -> Material:
-    return replace(_glossy(reader, port), metallic=0.0, transmission=1.0, ior=_number(reader, port, "IOR"))
+    """Light takes the node's colour at each interface, where Principled's takes the root of it."""
+    color = reader.value(port, "Color")
+    if color.texture < 0:
+        r, g, b = color.color
+        color = Value((r * r, g * g, b * b))
+    return replace(_metal(reader, port, color), metallic=0.0, transmission=1.0, ior=_number(reader, port, "IOR"))
 
 
 def _transparent(reader: Reader, port: Port) -> Material:
@@ -194,7 +207,7 @@ _SHADERS: dict[str, Callable[[Reader, Port], Material]] = {
     "ShaderNodeBsdfDiffuse": _diffuse,
     "ShaderNodeBsdfAnisotropic": _glossy,
     "ShaderNodeBsdfGlossy": _glossy,
-    "ShaderNodeBsdfMetallic": _glossy,
+    "ShaderNodeBsdfMetallic": _metallic,
     "ShaderNodeBsdfGlass": _glass,
     "ShaderNodeBsdfTransparent": _transparent,
     "ShaderNodeEmission": _emission,
