@@ -99,9 +99,9 @@ def run_scaling(plan: Plan) -> None:
     """All series of `scaling.py`; writes scaling.csv."""
     with closing(Session()) as session:
         device = session.device_info()["renderer"]
-        todo = scaling.points(is_software(device))
-        with progress(len(todo)) as lines:
-            found = list(scaling.rows(todo, session, lines))
+    todo = scaling.points(is_software(device))
+    with progress(len(todo)) as lines:
+        found = list(scaling.rows(todo, lines))
     host.write(plan.out, device)
     tables.write(plan.out, tables.Scaled, found)
 

@@ -8,8 +8,10 @@ does not in the parts of the frame, so slopes are fitted to the stages, see `rep
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
+from itertools import groupby
 from typing import Any
 
 from ..errors import GpuError
@@ -62,23 +64,31 @@ def points(is_software: bool) -> list[Point]:
     ]
 
 
-def rows(todo: Sequence[Point], session: Session, lines: Lines) -> Iterator[Scaled]:
-    """Measure every point of `todo` that fits the device; neighbours with equal arguments share a scene."""
-    device, last, scene = session.device_info()["renderer"], None, hall()
-    for point in todo:
-        lines.step(what := f"{point.axis}: {point.x:,.0f}")
-        if point.scene != last:
-            last, scene = point.scene, hall(**point.scene)
-        try:
+def rows(todo: Sequence[Point], lines: Lines) -> Iterator[Scaled]:
+    """Measure every point of `todo` that fits the device. Each series has a device of its own, so that memory is its
+    own; neighbours with equal arguments share a scene."""
+    for _, series in groupby(todo, lambda point: point.axis):
+        with closing(Session()) as session:
+            yield from _series_rows(list(series), session, lines)
+
+
+def _series_rows(series: Sequence[Point], session: Session, lines: Lines) -> Iterator[Scaled]:
+    device = session.device_info()["renderer"]
+    for same, points_of_scene in groupby(series, lambda point: point.scene):
+        scene = hall(**same)
+        for point in points_of_scene:
+            lines.step(what := f"{point.axis}: {point.x:,.0f}")
             shoot = partial(_shoot, Shooter(session, point.size), scene, point.settings)
-            limits = shoot().limits
-        except GpuError as error:
-            limits = [str(error)]
-        if limits:
-            lines.say(f"{what} is left out: {limits[0]}")
-            continue
-        shots = repeat(shoot)
-        yield Scaled(point.axis, device, point.x, median(shots), len(shots), pack(shots[-1].parts), shots[-1].n_bytes)
+            try:
+                limits = shoot().limits
+            except GpuError as error:
+                limits = [str(error)]
+            if limits:
+                lines.say(f"{what} is left out: {limits[0]}")
+                continue
+            shots = repeat(shoot)
+            yield Scaled(point.axis, device, point.x, median(shots), len(shots), pack(shots[-1].parts),
+                         shots[-1].n_bytes)
 
 
 def _shoot(shooter: Shooter, scene: Scene, settings: Mapping[str, Any]) -> Shot:

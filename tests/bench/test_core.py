@@ -143,21 +143,21 @@ def test_direct_light_is_less_than_all_light(session):
     assert 0 < direct.mean() < whole.mean()
 
 
-def test_scaling_measures_each_point(session):
+def test_scaling_measures_each_point():
     todo = [scaling.Point("lamps", n, SIZE, {"n_triangles": 100, "n_lamps": n}, {"samples": 1, **QUICK})
             for n in (1, 2)]
-    rows = list(scaling.rows(todo, session, Lines()))
+    rows = list(scaling.rows(todo, Lines()))
     assert [(row.axis, row.x) for row in rows] == [("lamps", 1), ("lamps", 2)]
     assert all(row.seconds > 0 and row.n_bytes > 0 and "gather/rays" in tables.unpack(row.parts) for row in rows)
 
 
-def test_what_does_not_fit_the_device_is_left_out_with_a_sentence(session, monkeypatch, capsys):
+def test_what_does_not_fit_the_device_is_left_out_with_a_sentence(monkeypatch, capsys):
     def refuse(*_):
         raise GpuError("Too large")
 
     monkeypatch.setattr(scaling.Shooter, "shoot", refuse)
     todo = [scaling.Point("lamps", 1, SIZE, {"n_triangles": 100}, {"samples": 1})]
-    assert list(scaling.rows(todo, session, Lines())) == []
+    assert list(scaling.rows(todo, Lines())) == []
     assert "lamps: 1 is left out: Too large" in capsys.readouterr().err
 
 

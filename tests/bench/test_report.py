@@ -95,8 +95,8 @@ def test_pages_and_plots(folder):
     speed, thesis, scaling = (page.read_text() for page in pages)
     assert "crossover at 1 s" in speed and "| rays | 1 samples | 1 | 100 ms | 3 |" in speed
     assert "lamp moved | 20 ms | cache 12.0" in speed and "noise is not known" in speed
-    assert "| 128 | 0.500 | 1.00 | 0.500 | 1.00 | 9.50 | 0.300 | 7 |" in thesis and "to the power 1.0" in thesis
-    assert "| bvh | 1.0 | 1.0 |" in scaling and "| memory | 1.0 | 1.0 |" in scaling and "gather" not in scaling
+    assert "| 128 | 0.500 | 1.00 | 0.500 | 1.00 | 9.50 | 0.300 | 7 |" in thesis and "to the power 1.00" in thesis
+    assert "| bvh | 1.00 | 1.00 |" in scaling and "| memory | 1.00 | 1.00 |" in scaling and "gather" not in scaling
     for name in ("machine_box_8x6.png", "machine_scaling.png"):
         assert (folder / name).read_bytes().startswith(b"\x89PNG")
         assert name in speed + scaling

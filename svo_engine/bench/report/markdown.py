@@ -29,6 +29,11 @@ def factor(ratio: float) -> str:
     return number(ratio) if ratio > 0 else "-"
 
 
+def power(slope: float) -> str:
+    """An exponent."""
+    return f"{slope:.2f}" if math.isfinite(slope) else "-"
+
+
 def percent(value: float) -> str:
     """A part with its sign."""
     return f"{value:+.2%}" if math.isfinite(value) else "-"

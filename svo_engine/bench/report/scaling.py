@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..curves import slope
 from ..tables import Scaled, stages, unpack
-from .markdown import number, size, table
+from .markdown import number, power, size, table
 from .plots import Series, growth
 from .runs import Run
 
@@ -66,7 +66,7 @@ def slopes(rows: Sequence[Scaled]) -> str:
     xs = [row.x for row in rows]
     lines = {**{name: ys for name, (_, ys) in series(rows).items()}, "memory": [float(row.n_bytes) for row in rows]}
     return table(("Slope of", "whole series", "last three"),
-                 ([name, number(slope(xs, ys), 2), number(slope(xs[-END:], ys[-END:]), 2)]
+                 ([name, power(slope(xs, ys)), power(slope(xs[-END:], ys[-END:]))]
                   for name, ys in lines.items()))
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from ..curves import slope
 from ..tables import Timed, unpack
-from .markdown import factor, number, table
+from .markdown import factor, number, power, table
 from .runs import Run
 
 # Milliseconds by voxels a side. The thesis: GTX 1050 Ti, 4,977 triangles; cuda_voxelizer: GTX 1050 Ti, 70,000 triangles
@@ -69,4 +69,4 @@ def _triangles(rows: Sequence[Timed]) -> Iterator[str]:
     for what, n in dict.fromkeys((row.what, row.n) for row in rows):
         series = [row for row in rows if (row.what, row.n) == (what, n)]
         k = slope([row.n_triangles for row in series], [row.gpu_ms for row in series])
-        yield f"Time of {what} at {n} cubed grows as triangles to the power {number(k, 2)}.\n"
+        yield f"Time of {what} at {n} cubed grows as triangles to the power {power(k)}.\n"
