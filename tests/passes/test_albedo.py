@@ -32,7 +32,7 @@ COSINES = (0.1, 0.3, 0.6, 1.0)
 METAL = Material("Metal", (1, 1, 1), metallic=1.0)
 GLASS = Material("Glass", (1, 1, 1), transmission=1.0)
 VARNISH = Material("Varnish", (1, 1, 1))
-N = 4096  # directions of an albedo. Between columns and rows of the table, and of so many directions: 1 %
+N = 65536  # directions of an albedo. Between columns and rows of the table, and of so many directions: 1 %
 
 
 @cache
