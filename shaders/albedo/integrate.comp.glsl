@@ -7,7 +7,7 @@
 
 #include "bind/albedo.glsl"
 
-const int N_SAMPLES = 610;             // a Fibonacci number, whose lattice is the most even
+const int N_SAMPLES = 377;             // a Fibonacci number, whose lattice is the most even
 const float GOLDEN = 0.6180339887499;
 
 layout(local_size_x = 64) in;

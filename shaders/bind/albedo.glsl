@@ -7,9 +7,9 @@
 uniform sampler2DArray u_albedo;
 
 const int ALBEDO_N = 32;             // columns, rows
-const int ALBEDO_IORS = 16;          // layers of dielectrics: E, E F', glass from outside, glass from inside
-const int ALBEDO_METALS = 16;        // layer of metals: E, E F of Schlick for f0 = 0, mean of E, the dip of f82 for b = 1
-const int ALBEDO_MEANS = 17;         // layer of means over cos, a row an ior: glass from outside and inside, E, E F'
+const int ALBEDO_IORS = 24;          // layers of dielectrics: E, E F', glass from outside, glass from inside
+const int ALBEDO_METALS = 24;        // layer of metals: E, E F of Schlick for f0 = 0, mean of E, the dip of f82 for b = 1
+const int ALBEDO_MEANS = 25;         // layer of means over cos, a row an ior: glass from outside and inside, E, E F'
 
 // F' goes from 0 at normal incidence to 1, as F goes from f0 to 1. Layer i is of this index of refraction.
 float albedo_ior(float i)

@@ -10,7 +10,7 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 
-N, LAYERS = 32, 18
+N, LAYERS = 32, 26
 
 INTEGRATE = Pass(("albedo/integrate.comp.glsl",), images=("u_table",))
 
