@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 
 @dataclass(frozen=True)
@@ -26,5 +27,9 @@ class Pass:
 
     def check(self, given: set[str]) -> None:
         """Assert that a call gives just what is declared."""
-        declared = {*self.buffers, *self.textures, *self.images, *self.uniforms}
+        declared = self._declared
         assert given == declared, f"{self.name}: missing {sorted(declared - given)}, unknown {sorted(given - declared)}"
+
+    @cached_property
+    def _declared(self) -> set[str]:
+        return {*self.buffers, *self.textures, *self.images, *self.uniforms}

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..gpu.device import Device
+from ..gpu.device import Device, DrawCall
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..scene.types import View
@@ -50,8 +51,12 @@ class GBuffer:
 
     def camera(self) -> dict[str, Any]:
         """The uniforms of bind/camera.glsl."""
-        origin, direction = rays(self.world_from_clip)
+        origin, direction = self._rays
         return {"u_ray_origin": origin, "u_ray_direction": direction, "u_size": self.targets.size}
+
+    @cached_property
+    def _rays(self) -> tuple[np.ndarray, np.ndarray]:
+        return rays(self.world_from_clip)
 
 
 def rays(world_from_clip: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -88,9 +93,9 @@ def raster(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, se
     clip_from_world = shift @ clip_from_world
     device.clear(targets.framebuffer)
     constants = {"HAS_ALPHA": gpu_scene.has_alpha, "HAS_TEXTURES": gpu_scene.has_textures}
-    for draw in gpu_scene.draws:
-        device.draw(VISIBILITY, targets.framebuffer, 3 * draw.n_triangles, draw.n_instances, constants,
-                    **gpu_scene.geometry, **gpu_scene.materials, u_clip_from_world=clip_from_world,
-                    u_first_instance=draw.first_instance, u_first_triangle=draw.first_triangle, u_sample=sample,
-                    u_seed=settings.seed)
+    calls = (DrawCall(3 * part.n_triangles, part.n_instances,
+                      {"u_first_instance": part.first_instance, "u_first_triangle": part.first_triangle})
+             for part in gpu_scene.draws)
+    device.draw(VISIBILITY, targets.framebuffer, calls, constants, **gpu_scene.geometry, **gpu_scene.materials,
+                u_clip_from_world=clip_from_world, u_sample=sample, u_seed=settings.seed)
     return GBuffer(targets, np.linalg.inv(clip_from_world))

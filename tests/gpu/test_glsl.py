@@ -10,6 +10,7 @@ import pytest
 
 from svo_engine.errors import ShaderError
 from svo_engine.gpu import glsl
+from svo_engine.gpu.device import DrawCall
 from svo_engine.gpu.glsl import Source, compose
 from svo_engine.gpu.passes import Pass
 
@@ -136,7 +137,7 @@ def test_the_real_compiler_blames_the_fragment_shader(device, write, monkeypatch
     with device.scope() as scope:
         target = scope.framebuffer("target", [scope.texture("color", (4, 4), 4, "f4")], with_depth=False)
         with pytest.raises(ShaderError, match=r"shaders/x\.frag\.glsl:4: .*undeclared"):
-            device.draw(Pass(("x.vert.glsl", "x.frag.glsl")), target, 3)
+            device.draw(Pass(("x.vert.glsl", "x.frag.glsl")), target, [DrawCall(3)])
 
 
 def test_a_constant_that_no_line_declares_is_an_error(write, run_from):
