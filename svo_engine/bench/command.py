@@ -114,7 +114,7 @@ def run_blender(plan: Plan, device: str, reference_samples: int) -> None:
     ladders = plan.ladders()
     cost = len(plan.scenes) * sum(rung.cost for rungs in ladders for rung in rungs)
     if not plan.references:
-        cost += len(plan.scenes) * reference_samples
+        cost += len(plan.scenes) * (reference_samples or through_blender.MADE_SAMPLES)
     stored: Sequence[Path | None] = check_references(plan) or [None] * len(plan.scenes)
     found: list[tables.Rendered] = []
     with progress(cost) as lines:

@@ -22,7 +22,7 @@ SAMPLES = {"rays": (1, 2, 4, 16, 64, 256), "cycles": (1, 4, 16, 64, 256), "cycle
            "eevee": (1, 16, 64)}
 TIME_LIMITS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0)  # s
 CONES = ("64", "128", "256")  # voxels a side
-CONE_SAMPLES = 16
+CONE_SAMPLES = 4
 MANY_SAMPLES = 65536  # more than a time limit lets through
 
 RUNS = 3

@@ -40,8 +40,9 @@ def add(subparsers: Any) -> None:
     command.add_argument("--samples", type=int, nargs="+", default=[], metavar="N", help="instead of the usual ones")
     command.add_argument("--time-limits", type=float, nargs="+", default=[], metavar="SECONDS",
                          help="of rays, instead of the usual ones")
-    command.add_argument("--reference-samples", type=int, default=1024, metavar="N",
-                         help="of each reference that Cycles makes, in two halves (default: %(default)s)")
+    command.add_argument("--reference-samples", type=int, default=0, metavar="N",
+                         help="of each reference that Cycles makes, in two halves (default: 1024); or, with "
+                              "--references, how many those have, so that their noise can be told")
     command.add_argument("--longest", type=float, default=30.0, metavar="SECONDS",
                          help="rungs that would take longer are left out (default: %(default)g)")
     command.add_argument("--size", type=size, metavar="WxH", help="size in pixels (default: the reference's)")

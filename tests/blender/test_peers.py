@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from svo_engine.bench import tables
-from svo_engine.bench.references import load
+from svo_engine.bench.references import Reference, load, save
 from svo_engine.blender import peers
 from svo_engine.cli import main
 from svo_engine.errors import SvoError
@@ -40,6 +40,26 @@ def test_ladders_beside_cycles(tmp_path, capsys):
     assert bench(tmp_path, "--renderers", "cycles") == 0
     assert "is there and used" in capsys.readouterr().err
     assert reference.read_bytes() == before
+
+
+def test_the_noise_of_a_stored_reference_is_told_by_its_samples(tmp_path):
+    made = tmp_path / "made"
+    assert bench(made, "--renderers", "cycles") == 0
+    (path,) = (made / "references").iterdir()
+    stored = tmp_path / "stored.npz"
+    save(Reference(load(path).picture), stored)
+    arguments = ["bench", "--scenes", str(SCENE), "--references", str(stored), "--out", str(tmp_path / "out"),
+                 "--renderers", "cycles", "--samples", "1"]
+    assert main(arguments) == 0
+    assert np.isnan(tables.read(tmp_path / "out", tables.Rendered)[0].noise)
+    noise = []
+    for n_samples in ("100", "200"):
+        assert main([*arguments, "--reference-samples", n_samples]) == 0
+        (row,) = tables.read(tmp_path / "out", tables.Rendered)
+        noise.append(row.noise)
+        assert load(tmp_path / "out/references" / f"{SCENE.stem}.npz").noise == pytest.approx(row.noise, rel=1e-5)
+        assert row.error == pytest.approx(row.rel_mse - row.noise, rel=1e-4)
+    assert noise[0] == pytest.approx(2 * noise[1], rel=1e-5) and noise[0] > 0
 
 
 def test_data_is_kept_from_render_to_render_and_settings_come_back():

@@ -50,7 +50,7 @@ def _noise(rows: Sequence[Rendered]) -> str:
     noise = number(rows[0].noise)
     if noise == "-":
         return "The reference's own noise is not known; it is in every error.\n"
-    return f"The reference's own noise: relMSE {noise}, from two independent halves; it is not in *Error*.\n"
+    return f"The reference's own noise: relMSE {noise}, told by two independent halves; it is not in *Error*.\n"
 
 
 def _rungs(rows: Sequence[Rendered]) -> str:
@@ -71,6 +71,8 @@ def _verdict(verdict: Verdict) -> str:
 def _kinds(rows: Sequence[Rendered]) -> str:
     """Frames that redo less than everything, and where the time goes."""
     ours = [row for row in rows if row.parts]
+    if not ours:
+        return ""
     return table(("Frame", "Rung", "Anew", "Time", "Milliseconds of its parts"),
                  ([NAMES[r.renderer], r.rung, r.kind, seconds(r.seconds), _largest(r.parts)] for r in ours))
 
