@@ -13,6 +13,7 @@ from .film import Film
 from .gpu.device import Device
 from .gpu.kept import Kept
 from .gpu.thread import GpuThread
+from .passes.adaptive import is_done, make_progress
 from .passes.albedo import albedo
 from .passes.bvh import Bvh, build_bvh, build_meshes
 from .passes.cache import LightCache, light_cache
@@ -42,7 +43,8 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
             gpu_scene = stage("upload", upload, scene, stage("albedo", albedo, is_specular(scene)))
-        film = make_film(scope, view, planes_for(gpu_scene, settings), gpu_scene.centre_ws)
+        film = make_film(scope, view, planes_for(gpu_scene, settings), gpu_scene.centre_ws,
+                         make_progress(scope, view.size, settings))
         targets = stage("targets", make_targets, view.size)
         incident = stage("incident", make_incident, view.size, gpu_scene.has_specular, "DIFFUSE_FOUND" in film.planes)
         gather, show = None, None
@@ -55,17 +57,17 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
         else:
             gather = _rays(stage, device, gpu_scene, settings, film)
         for sample in range(settings.samples):
-            gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample)
+            gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample, film.tiles)
             if gather:
                 gather(gbuffer, incident, sample)
                 resolve(device, gpu_scene, gbuffer, incident, film)
             elif show:
                 show(gbuffer, film)
             is_late = 0 < settings.time_limit < time.monotonic() - started
-            film.is_last = is_late or film.n_samples == settings.samples
+            film.is_last = is_late or film.n_samples == settings.samples or is_done(device, film)
             yield film
             device.profiler.sums = sums  # other frames may have had a turn
-            if is_late:
+            if film.is_last:
                 return
 
 
@@ -174,6 +176,8 @@ def _read(film: GpuFilm, device: Device, kept: Kept, scene: Scene, settings: Ren
                             settings.passes)
     counts = {"triangles": scene.n_triangles, "lights": len(scene.lights), "samples": film.n_samples,
               "device bytes": device.n_bytes, **device.profiler.counts}
+    if film.progress:
+        counts["samples saved"] = film.progress.n_saved(settings.samples)
     if film.cache:
         counts["bounces"] = film.cache.n_bounces()
     read.stats.update(device=device.info["renderer"], times_ms=device.profiler.times_ms(), counts=counts,

@@ -61,6 +61,20 @@ class RenderSettings:
     method: str = _setting("rays", "Method", "How indirect light is gathered", "Sampling", choices=METHODS)
     samples: int = _setting(16, "Samples", "Pictures with shifted pixel centres that are averaged into the final one",
                             "Sampling", low=1, high=65536)
+    adaptive_sampling: bool = _setting(True, "Use Adaptive Sampling",
+                                       "Take no more samples where the noise is below the threshold", "Sampling")
+    noise_threshold: float = _setting(0.01, "Noise Threshold",
+                                      "Noise at which sampling stops: lower is cleaner and slower; 0 means automatic, "
+                                      "by the number of samples", "Sampling", low=0, high=1)
+    min_samples: int = _setting(0, "Min Samples",
+                                "Samples before any part of the picture may stop, so that rare light is found; 0 means "
+                                "automatic, by the noise threshold", "Sampling", low=0, high=4096)
+    viewport_adaptive_sampling: bool = _setting(True, "Use Viewport Adaptive Sampling",
+                                                "The same in the viewport", "Sampling")
+    viewport_noise_threshold: float = _setting(0.1, "Viewport Noise Threshold", "The same in the viewport",
+                                               "Sampling", low=0, high=1)
+    viewport_min_samples: int = _setting(0, "Viewport Min Samples", "The same in the viewport", "Sampling", low=0,
+                                         high=4096)
     viewport_samples: int = _setting(16, "Viewport Samples", "Samples after which a resting viewport stops", "Sampling",
                                      low=1, high=65536)
     time_limit: float = _setting(0.0, "Time Limit", "Seconds after which no new sample is begun; 0 means no limit",
@@ -108,6 +122,12 @@ class RenderSettings:
     injection_shininess: float = _setting(32.0, "Shininess", "Blinn-Phong's exponent alpha", "Light Injection", low=1,
                                           high=1000)
     passes: tuple[str, ...] = ()
+
+    def for_viewport(self) -> RenderSettings:
+        """The same with the viewport's own samples, and no time limit."""
+        return replace(self, samples=self.viewport_samples, time_limit=0.0,
+                       adaptive_sampling=self.viewport_adaptive_sampling,
+                       noise_threshold=self.viewport_noise_threshold, min_samples=self.viewport_min_samples)
 
     def __post_init__(self) -> None:
         if unknown := [name for name in self.passes if name not in PASSES]:

@@ -92,7 +92,8 @@ def test_picture_is_that_of_the_core(saved, tmp_path):
 
 
 def test_passes_are_layers_of_the_exr(saved, tmp_path):
-    assert main(["render", str(saved), "--out", str(tmp_path / "a.exr"), "--passes", "Depth,Diffuse Color", *QUICK]) == 0
+    out = ("--out", str(tmp_path / "a.exr"))
+    assert main(["render", str(saved), *out, "--passes", "Depth,Diffuse Color", *QUICK]) == 0
     with OpenEXR.File(str(tmp_path / "a.exr"), separate_channels=True) as file:
         assert set(file.channels()) == {*"RGBA", "Depth.Z", *(f"Diffuse Color.{letter}" for letter in "RGB")}
         assert np.allclose(file.channels()["Depth.Z"].pixels[8, 12], 4)

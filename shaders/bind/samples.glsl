@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: how many samples a pixel has.
 
-uniform float u_n_samples;
+#include "bind/tiles.glsl"
+
+uniform float u_n_samples;  // of pixels that are not done
 
 float n_samples(ivec2 pixel)
 {
-    return u_n_samples;
+    uint n = samples_when_done(pixel);
+    return n == 0u ? u_n_samples : float(n);
 }

@@ -8,6 +8,7 @@
 
 #include "bind/gbuffer.glsl"
 #include "bind/incident.glsl"
+#include "bind/tiles.glsl"
 #include "bind/albedo.glsl"
 #include "bind/environment.glsl"
 #include "bind/cones.glsl"
@@ -89,7 +90,7 @@ void main()
 {
     uint index = u_first + gl_GlobalInvocationID.x;
     ivec2 pixel = tiled_pixel(index, u_size);
-    if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
+    if (index >= u_end || any(greaterThanEqual(pixel, u_size)) || is_done(pixel))
         return;
     vec3 E_direct = vec3(0.0), E_indirect = vec3(0.0), E_world = vec3(0.0), L_direct = vec3(0.0), L_indirect = vec3(0.0);
     Seen seen = seen_at(pixel, HAS_TEXTURES);

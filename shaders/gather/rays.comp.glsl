@@ -8,6 +8,7 @@
 
 #include "bind/gbuffer.glsl"
 #include "bind/incident.glsl"
+#include "bind/tiles.glsl"
 #include "gather/specular.glsl"
 
 const bool HAS_INDIRECT = true;   // anything that a ray could find
@@ -45,7 +46,7 @@ void main()
 {
     uint index = u_first + gl_GlobalInvocationID.x;
     ivec2 pixel = tiled_pixel(index, u_size);
-    if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
+    if (index >= u_end || any(greaterThanEqual(pixel, u_size)) || is_done(pixel))
         return;
     vec3 E_direct = vec3(0.0), E_indirect = vec3(0.0), E_found = vec3(0.0);
     SpecularLight specular = no_light();

@@ -2,7 +2,7 @@
 // Purpose:    the light that leaves each pixel towards the eye, added to the film.
 // Formula:    L = Le + rho_d / pi (E_direct + E_indirect) + L_glossy + L_transmission; without a surface, the world
 // In:         G-buffer, scene, world, u_incident
-// Out:        u_film: sums in the layers that are asked for; the number of samples is the same for all
+// Out:        u_film: sums in the layers that are asked for, of tiles that are not done
 // Invocation: one pixel
 
 #include "bind/film.glsl"
@@ -10,6 +10,7 @@
 #include "bind/environment.glsl"
 #include "bind/incident.glsl"
 #include "bind/principled.glsl"
+#include "bind/tiles.glsl"
 
 const bool HAS_TEXTURES = false;
 
@@ -20,7 +21,7 @@ layout(rgba32f) uniform image2DArray u_film;
 uniform uint u_first;
 uniform uint u_end;
 uniform bool u_film_transparent;
-uniform bool u_is_first;  // of the samples
+uniform uint u_sample;
 
 Bsdf bsdf_of(Seen seen)
 {
@@ -71,12 +72,19 @@ vec3 add_transmission(ivec2 pixel, vec3 albedo)
     return direct + indirect;
 }
 
+void add_picture(ivec2 pixel, vec4 color)
+{
+    add(pixel, PLANE_COMBINED, color);
+    if (u_sample % 2u == 1u)
+        add(pixel, PLANE_HALF, color);
+}
+
 void add_place(ivec2 pixel, Surface s)
 {
     vec3 eye, d;
     camera_ray(vec2(pixel) + 0.5, eye, d);
     add(pixel, PLANE_NORMAL_DEPTH, vec4(s.normal, distance(eye, s.position)));
-    if (u_is_first)
+    if (u_sample == 0u)
         add(pixel, PLANE_POSITION, vec4(s.position, 1.0));
 }
 
@@ -84,13 +92,13 @@ void main()
 {
     uint index = u_first + gl_GlobalInvocationID.x;
     ivec2 pixel = tiled_pixel(index, u_size);
-    if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
+    if (index >= u_end || any(greaterThanEqual(pixel, u_size)) || is_done(pixel))
         return;
     Seen seen = seen_at(pixel, HAS_TEXTURES);
     if (!seen.hit) {
         vec3 world = world_radiance(-seen.wo, 0.0);
         add(pixel, PLANE_ENVIRONMENT, vec4(world, 0.0));
-        add(pixel, PLANE_COMBINED, u_film_transparent ? vec4(0.0) : vec4(world, 1.0));
+        add_picture(pixel, u_film_transparent ? vec4(0.0) : vec4(world, 1.0));
         return;
     }
     vec3 L = seen.shading.emission;
@@ -101,6 +109,6 @@ void main()
         L += add_diffuse(pixel, seen.shading.base_color);
     }
     add(pixel, PLANE_EMISSION, vec4(seen.shading.emission, 0.0));
-    add(pixel, PLANE_COMBINED, vec4(L, 1.0));
+    add_picture(pixel, vec4(L, 1.0));
     add_place(pixel, seen.surface);
 }

@@ -60,6 +60,20 @@ class SVO_PT_sampling(_RenderPanel, bpy.types.Panel):
         column.prop(context.scene.svo, "denoise")
 
 
+def _samples(column: Any, svo: Any, prefix: str = "") -> None:
+    """The noise threshold and the samples, as Cycles shows them."""
+    is_adaptive = getattr(svo, f"{prefix}adaptive_sampling")
+    row = column.column(align=True, heading="Noise Threshold").row(align=True)
+    row.prop(svo, f"{prefix}adaptive_sampling", text="")
+    threshold = row.row()
+    threshold.active = is_adaptive
+    threshold.prop(svo, f"{prefix}noise_threshold", text="")
+    samples = column.column(align=True)
+    samples.prop(svo, f"{prefix}samples", text="Max Samples" if is_adaptive else "Samples")
+    if is_adaptive:
+        samples.prop(svo, f"{prefix}min_samples", text="Min Samples")
+
+
 class SVO_PT_sampling_viewport(_RenderPanel, bpy.types.Panel):
     """The viewport's samples."""
 
@@ -67,7 +81,7 @@ class SVO_PT_sampling_viewport(_RenderPanel, bpy.types.Panel):
     bl_parent_id = "SVO_PT_sampling"
 
     def draw(self, context: bpy.types.Context) -> None:
-        self.column().prop(context.scene.svo, "viewport_samples", text="Samples")
+        _samples(self.column(), context.scene.svo, "viewport_")
 
 
 class SVO_PT_sampling_render(_RenderPanel, bpy.types.Panel):
@@ -78,7 +92,7 @@ class SVO_PT_sampling_render(_RenderPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.column()
-        column.prop(context.scene.svo, "samples")
+        _samples(column, context.scene.svo)
         column.prop(context.scene.svo, "time_limit")
 
 

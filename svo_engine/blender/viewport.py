@@ -53,8 +53,7 @@ class Viewport:
             return
         self.failure = ""
         view, rect = view_of(context, scene)
-        settings = settings_of(scene)
-        settings = replace(settings, samples=settings.viewport_samples, time_limit=0.0)
+        settings = settings_of(scene).for_viewport()
         self._worker.show(Job(shown_scene, view, settings, rect))
         if self._worker.shown is not None:
             job, film = self._worker.shown

@@ -18,11 +18,11 @@ from .planes import read_pass
 from .raster import GBuffer
 from .resolve import GpuFilm
 
-PREPARE = Pass(("denoise/prepare.comp.glsl",), textures=("u_film",), images=("u_light",),
+PREPARE = Pass(("denoise/prepare.comp.glsl",), textures=("u_film", "u_tiles"), images=("u_light",),
                uniforms=("u_size", "u_n_samples"))
-ATROUS = Pass(("denoise/atrous.comp.glsl",), textures=("u_film", "u_light_in"), images=("u_light",),
+ATROUS = Pass(("denoise/atrous.comp.glsl",), textures=("u_film", "u_tiles", "u_light_in"), images=("u_light",),
               uniforms=("u_ray_origin", "u_ray_direction", "u_size", "u_step", "u_sigmas", "u_n_samples"))
-COMPOSE = Pass(("denoise/compose.comp.glsl",), textures=("u_film", "u_light"), images=("u_picture",),
+COMPOSE = Pass(("denoise/compose.comp.glsl",), textures=("u_film", "u_tiles", "u_light"), images=("u_picture",),
                uniforms=("u_size", "u_n_samples"))
 
 STEPS = (1, 2, 4, 8)  # pixels between the taps of each pass
@@ -63,7 +63,7 @@ def read_picture(device: Device, film: GpuFilm, pictures: Pictures, is_filtered:
     """The mean of the samples in `film` and the render passes `passes`, which are never filtered, on the host."""
     assert film.gbuffer is not None, "a film without a sample"
     n = film.gbuffer.n_invocations
-    common = {"u_film": film.sums, "u_size": film.size, "u_n_samples": float(film.n_samples)}
+    common = {"u_film": film.sums, "u_tiles": film.tiles, "u_size": film.size, "u_n_samples": float(film.n_samples)}
     device.dispatch(COMPOSE, n, film.constants(), **common, u_light=pictures.light, u_picture=pictures.picture)
     for light in LIGHTS if is_filtered else ():
         if film.layer(light.plane) < 0:

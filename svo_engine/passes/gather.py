@@ -23,13 +23,13 @@ KINDS = ("DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_FOUND", "GLOSSY_DIRECT",
          "TRANSMISSION_DIRECT", "TRANSMISSION_INDIRECT")  # of light, see bind/incident.glsl
 
 CONES = Pass(("gather/cones.comp.glsl",), (*GEOMETRY, *MATERIALS, "Lights"),
-             textures=("u_visibility", "u_env", "u_radiance", "u_albedo"), images=("u_incident",),
+             textures=("u_visibility", "u_tiles", "u_env", "u_radiance", "u_albedo"), images=("u_incident",),
              uniforms=(*CAMERA, *WORLD, *GRID, "u_cone_offset", "u_cone_step", "u_cone_distance", "u_sample", "u_seed",
                        "u_ring_angle", "u_tan_half_aperture", "u_tan_half_shadow", "u_specular_cone"))
 
 
 RAYS = Pass(("gather/rays.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Lights"),
-            textures=("u_visibility", "u_env", "u_albedo", *TRACE), images=("u_incident",),
+            textures=("u_visibility", "u_tiles", "u_env", "u_albedo", *TRACE), images=("u_incident",),
             uniforms=(*CAMERA, *WORLD, *CACHE_UNIFORMS, *TRACE_UNIFORMS, "u_sample", "u_seed"))
 
 
@@ -60,10 +60,11 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: G
     grid = lit.voxels.grid
     constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "HAS_TEXTURES": gpu_scene.has_textures,
                  "HAS_INDIRECT": gpu_scene.has_light, "HAS_SPECULAR": gpu_scene.has_specular,
-                 **incident.constants()}
+                 **incident.constants(), **gbuffer.constants()}
     device.dispatch(
         CONES, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
-        **gbuffer.uniforms(), **grid.uniforms(), u_incident=incident.layers, Lights=gpu_scene.lights,
+        **gbuffer.uniforms(), **grid.uniforms(), u_tiles=gbuffer.tiles, u_incident=incident.layers,
+        Lights=gpu_scene.lights,
         u_albedo=gpu_scene.albedo, u_radiance=lit.radiance, u_cone_offset=settings.cone_offset,
         u_cone_step=settings.cone_step, u_cone_distance=settings.cone_distance * grid.n, u_sample=sample,
         u_seed=settings.seed, u_ring_angle=settings.cone_ring_angle,
@@ -75,10 +76,12 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh
                 settings: RenderSettings, sample: int) -> None:
     """Fill `incident` for one sample by rays."""
     constants = {"N_LIGHTS": len(gpu_scene.scene.lights), **gpu_scene.surface_constants(),
-                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_ALPHA": gpu_scene.has_alpha, "N_RAYS": settings.gather_rays, **incident.constants(), **bvh.constants()}
+                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_ALPHA": gpu_scene.has_alpha, "N_RAYS": settings.gather_rays,
+                 **incident.constants(), **gbuffer.constants(), **bvh.constants()}
     device.dispatch(
         RAYS, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
-        **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), u_incident=incident.layers,
+        **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), u_tiles=gbuffer.tiles,
+        u_incident=incident.layers,
         Lights=gpu_scene.lights, u_albedo=gpu_scene.albedo, u_sample=sample, u_seed=settings.seed)
     width, height = gbuffer.targets.size
     device.profiler.counts["diffuse rays"] += width * height * settings.gather_rays

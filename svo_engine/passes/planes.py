@@ -17,10 +17,11 @@ import numpy as np
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..settings import PASSES, RenderSettings
+from .adaptive import is_adaptive
 from .resolve import PLANES, GpuFilm
 from .upload import GpuScene
 
-MEAN = Pass(("planes/mean.comp.glsl",), textures=("u_film",), images=("u_mean",),
+MEAN = Pass(("planes/mean.comp.glsl",), textures=("u_film", "u_tiles"), images=("u_mean",),
             uniforms=("u_size", "u_weights", "u_divisor", "u_n_samples"))
 
 DEPTH_OF_NOTHING = 1e10  # as in Cycles
@@ -69,6 +70,8 @@ SOURCES = {
 def planes_for(gpu_scene: GpuScene, settings: RenderSettings) -> tuple[str, ...]:
     """The planes that the picture and the asked passes are made of."""
     wanted = {"COMBINED"}.union(*(SOURCES[name].planes for name in settings.passes))
+    if is_adaptive(settings):
+        wanted.add("HALF")
     if settings.denoise and settings.view == "combined":
         wanted.update(_FILTERED, _FILTERED_GLOSSY if gpu_scene.has_specular else ())
     return tuple(plane for plane in PLANES if plane in wanted)
@@ -81,9 +84,9 @@ def read_pass(device: Device, film: GpuFilm, name: str, texture: Any) -> np.ndar
     weights = np.zeros(16, "f4")
     for planes, weight in ((source.plus, 1), (source.minus, -1)):
         weights[[film.layer(plane) for plane in planes]] = weight
-    device.dispatch(MEAN, film.gbuffer.n_invocations, film.constants(), u_film=film.sums, u_mean=texture,
-                    u_size=film.size, u_weights=weights.reshape(4, 4).T, u_divisor=film.layer(source.divisor),
-                    u_n_samples=float(film.n_samples))
+    device.dispatch(MEAN, film.gbuffer.n_invocations, film.constants(), u_film=film.sums, u_tiles=film.tiles,
+                    u_mean=texture, u_size=film.size, u_weights=weights.reshape(4, 4).T,
+                    u_divisor=film.layer(source.divisor), u_n_samples=float(film.n_samples))
     with device.profiler.host("read back"):
         width, height = film.size
         mean = np.frombuffer(texture.read(alignment=1), "f4").reshape(height, width, 4)
@@ -97,8 +100,8 @@ def _camera(film: GpuFilm) -> np.ndarray:
 
 
 def _position(film: GpuFilm, first: np.ndarray) -> np.ndarray:
-    """World space; 0 where there is nothing. The film has a mean over the samples of what only the first one gave."""
-    return (first[..., :3] * film.n_samples + film.centre) * (first[..., 3:] > 0)
+    """World space; 0 where there is nothing. Only the first sample gave anything, so that alpha is 1 / n."""
+    return (first[..., :3] / np.maximum(first[..., 3:], 1e-30) + film.centre) * (first[..., 3:] > 0)
 
 
 def _depth(film: GpuFilm, first: np.ndarray) -> np.ndarray:

@@ -34,16 +34,24 @@ class Targets:
 
 @dataclass(frozen=True, eq=False)
 class GBuffer:
-    """visibility: instance + 1 (0: nothing), triangle, barycentrics. world_from_clip: (4, 4) f8, to the centre."""
+    """visibility: instance + 1 (0: nothing), triangle, barycentrics. world_from_clip: (4, 4) f8, to the centre.
+
+    tiles  texture u4: not 0 where a tile of 8 by 8 pixels needs no more light; None: all need it
+    """
 
     targets: Targets
     world_from_clip: np.ndarray
+    tiles: Any = None
 
     @property
     def n_invocations(self) -> int:
         """Invocations of a pass over all pixels in tiles of 8 by 8."""
         width, height = self.targets.size
         return -(-width // 8) * -(-height // 8) * 64
+
+    def constants(self) -> dict[str, bool]:
+        """The constants of bind/tiles.glsl."""
+        return {"IS_ADAPTIVE": self.tiles is not None}
 
     def uniforms(self) -> dict[str, Any]:
         """The uniforms of bind/camera.glsl and bind/gbuffer.glsl."""
@@ -83,7 +91,7 @@ def make_targets(device: Device, size: tuple[int, int]) -> Targets:
 
 
 def raster(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, settings: RenderSettings,
-           sample: int) -> GBuffer:
+           sample: int, tiles: Any = None) -> GBuffer:
     """Draw the scene for one sample, its pixel centres shifted by the pixel filter."""
     clip_from_world = view.clip_from_view @ np.linalg.inv(view.world_from_view)
     clip_from_world[:, 3] += clip_from_world[:, :3] @ gpu_scene.centre_ws
@@ -98,4 +106,4 @@ def raster(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, se
              for part in gpu_scene.draws)
     device.draw(VISIBILITY, targets.framebuffer, calls, constants, **gpu_scene.geometry, **gpu_scene.materials,
                 u_clip_from_world=clip_from_world, u_sample=sample, u_seed=settings.seed)
-    return GBuffer(targets, np.linalg.inv(clip_from_world))
+    return GBuffer(targets, np.linalg.inv(clip_from_world), tiles)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from types import SimpleNamespace
 
 import bpy
@@ -21,7 +22,7 @@ EDGES = 0.06  # of all pixels are those in which an object ends: the engines pla
 
 @pytest.fixture
 def scene(empty, extension, tmp_path):
-    """A floor, a metal that leans, something that glows, a lamp and a sky, seen from the side; it asks for all passes."""
+    """A floor, a metal that leans, something that glows, a lamp and a sky, seen from the side; all passes asked for."""
     build.plane(principled(Base_Color=(0.6, 0.3, 0.2, 1)), size=4.0)
     metal = principled(Base_Color=(0.9, 0.7, 0.3, 1), Metallic=1.0, Roughness=0.3)
     build.plane(metal, name="Metal", size=1.0, at=(1, 0, 1), turn=(0.3, 0, 0))
@@ -173,8 +174,7 @@ def test_every_switch_stands_in_a_panel(scene):
     for panel in view_layer_panels._CLASSES:
         assert panel.poll(context)
         assert not panel.poll(SimpleNamespace(engine="CYCLES"))
-        columns = view_layer_panels._LayerPanel.columns
         drawn = SimpleNamespace(layout=Layout())
-        drawn.columns = lambda *args, drawn=drawn: columns(drawn, *args)
+        drawn.columns = partial(view_layer_panels._LayerPanel.columns, drawn)
         panel.draw(drawn, context)
     assert sorted(shown) == sorted(["use_pass_combined", "denoising_data", *SWITCHES.values()])
