@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    how noisy each tile of 8 by 8 pixels still is: half of the samples against all of them [Dammertz10b].
-// Formula:    e = |I - A|_1 / sqrt(|I|_1), I the mean of all samples, A of every second one; the root of the mean
+// Formula:    e = |I - A|_1 / sqrt(|I|_1), I the mean of all samples, A of half of them; the root of the mean
 //             of e^2 over the tile
 // In:         u_film
 // Out:        Errors: e of each tile; one invocation adds up, in the order of pixels

@@ -17,7 +17,7 @@ const int PLANE_TRANSMISSION_COLOR = -1;
 const int PLANE_EMISSION = -1;
 const int PLANE_ENVIRONMENT = -1;
 const int PLANE_NORMAL_DEPTH = -1;        // unit normal of the first hit, distance from the eye
-const int PLANE_HALF = -1;                // as COMBINED, of every second sample
+const int PLANE_HALF = -1;                // as COMBINED, of half of the samples
 const int PLANE_POSITION = -1;            // of the first sample alone, metres relative to the grid's centre; alpha 1
 
 const float MIN_ALBEDO = 1e-4;            // a darker surface's light is not told from its colour

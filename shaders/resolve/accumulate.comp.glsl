@@ -72,10 +72,17 @@ vec3 add_transmission(ivec2 pixel, vec3 albedo)
     return direct + indirect;
 }
 
+// Whether a sample belongs to the half of them by which noise is measured. Every second one would not do: in a sequence
+// of base 2 these lie in one half of the square. Of pairs, two in four, both halves are spread as all are [Christensen18].
+bool is_of_half(uint number)
+{
+    return bitCount(number & 0xaaaaaaaau) % 2 == 1;
+}
+
 void add_picture(ivec2 pixel, vec4 color)
 {
     add(pixel, PLANE_COMBINED, color);
-    if (u_sample % 2u == 1u)
+    if (is_of_half(u_sample))
         add(pixel, PLANE_HALF, color);
 }
 

@@ -48,7 +48,7 @@ class Progress:
     n_running: int
 
     def is_due(self, n_samples: int) -> bool:
-        """Whether to look again after so many samples; an even number, so that the halves are."""
+        """Whether to look again after so many samples; a multiple of 4, so that the halves are equal."""
         return n_samples >= self.min_samples and n_samples % EVERY == 0
 
     def n_saved(self, n_asked: int) -> int:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -40,7 +42,7 @@ def test_at_default_samples_nothing_is_left_out():
 
 
 class Painted:
-    """A film of `SIZE` of numbers, all its samples and every second one, and its progress."""
+    """A film of `SIZE` of numbers, all its samples and half of them, and its progress."""
 
     def __init__(self, device, scope, whole, half, n, settings=ADAPTIVE):
         camera = above(size=SIZE)
@@ -112,6 +114,16 @@ def test_what_is_not_a_number_is_never_quiet(device):
     assert not tiles[:2, :2].any()
 
 
+def test_both_halves_lie_in_all_parts_of_the_square():
+    """Of the van der Corput sequence, in which every second point lies in one half; as resolve/accumulate has it."""
+    numbers = np.arange(64)
+    points = sum((numbers >> bit & 1) / 2 ** (bit + 1) for bit in range(6))
+    is_of_half = np.array([bin(n & 0xAAAAAAAA).count("1") % 2 == 1 for n in numbers])
+    for n in range(EVERY, 65, EVERY):
+        assert is_of_half[:n].sum() == n / 2
+        assert abs(points[:n][is_of_half[:n]].mean() - 0.5) < 1 / n**0.5 / 2
+
+
 @pytest.mark.parametrize("n", [EVERY - 1, EVERY + 1, 2 * EVERY - 1])
 def test_nobody_looks_in_between(device, n):
     """Neither before the least number of samples nor where the halves are no halves."""
@@ -130,46 +142,50 @@ def test_a_quiet_picture_ends_early(session):
     assert np.allclose(film.planes["Combined"], (0.1, 0.2, 0.3, 1), rtol=1e-6)
 
 
+def films(session, **settings):
+    """A room by rays, filtered, with all passes: the film after each sample."""
+    scene = scenes.cornell()
+    settings = {**RAYS, "denoise": True, "passes": tuple(PASSES), "samples": 24, "min_samples": 8, **settings}
+    return list(session.films(scene, scenes.view(scene), replace(scenes.SMALL, **settings)))
+
+
 def shot(session, **settings):
-    """A room by rays, filtered, with all passes."""
-    return film_of(session, scenes.cornell(), **{**RAYS, "denoise": True, "passes": tuple(PASSES), **settings})
+    """The last of them."""
+    return films(session, **settings)[-1]
 
 
 def test_done_tiles_are_what_fewer_samples_give_to_the_bit(session):
     """Every tile is done at the first look; the filter and the passes divide by the true number of samples."""
-    early = shot(session, samples=64, min_samples=8, noise_threshold=1.0)
-    plain = shot(session, samples=8, adaptive_sampling=False)
-    assert early.n_samples == 8
+    early, plain = shot(session, noise_threshold=1.0), films(session, adaptive_sampling=False)[7]
+    assert early.n_samples == plain.n_samples == 8
     assert all(np.array_equal(early.planes[name], plain.planes[name]) for name in plain.planes)
 
 
 def test_tiles_that_go_on_are_what_all_samples_give_to_the_bit(session):
     """No tile is done at a threshold that none reaches."""
-    patient = shot(session, samples=24, min_samples=8, noise_threshold=1e-6, denoise=False)
-    plain = shot(session, samples=24, adaptive_sampling=False, denoise=False)
+    patient, plain = shot(session, noise_threshold=1e-6), shot(session, adaptive_sampling=False)
     assert patient.stats["counts"]["samples saved"] == 0
     assert all(np.array_equal(patient.planes[name], plain.planes[name]) for name in plain.planes)
 
 
 def test_a_picture_of_many_ages_is_made_of_both(session):
     """Each tile equals that of the picture with its number of samples: no seam is anything else."""
-    settings = {"denoise": False, "passes": ("Noisy Image",)}
-    mixed = shot(session, samples=32, min_samples=8, noise_threshold=0.12, **settings).planes["Combined"]
-    whole = {n: shot(session, samples=n, adaptive_sampling=False, **settings).planes["Combined"]
-             for n in (8, 16, 24, 32)}
-    of = {n: (mixed == picture).all(2) for n, picture in whole.items()}
-    assert np.logical_or.reduce(list(of.values())).all()
-    assert 0.01 < (~of[32]).mean() < 0.99
+    settings = {"denoise": False, "passes": ()}
+    mixed = shot(session, noise_threshold=0.12, **settings).planes["Combined"]
+    whole = [film.planes["Combined"] for film in films(session, adaptive_sampling=False, **settings)]
+    equal = [(mixed == whole[n - 1]).all(2) for n in (8, 16, 24)]
+    assert np.logical_or.reduce(equal).all()
+    assert 0.01 < (~equal[2]).mean() < 0.99
 
 
 def test_the_same_bits_again(session):
-    one, two = (shot(session, samples=24, min_samples=8, noise_threshold=0.12) for _ in range(2))
+    one, two = (shot(session, noise_threshold=0.12) for _ in range(2))
     assert one.stats["counts"]["samples saved"] == two.stats["counts"]["samples saved"] > 0
     assert all(np.array_equal(one.planes[name], two.planes[name]) for name in one.planes)
 
 
 def test_cones_stop_as_well(session):
-    film = shot(session, method="cones", samples=64, min_samples=8, noise_threshold=1.0)
+    film = shot(session, method="cones", noise_threshold=1.0)
     assert film.n_samples == 8
 
 
