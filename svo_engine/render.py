@@ -21,6 +21,7 @@ from .passes.debug import make_attribute, show_surfels, show_voxels
 from .passes.denoise import make_pictures, read_picture
 from .passes.gather import Incident, gather_cones, gather_rays, make_incident
 from .passes.light import injection_of, light
+from .passes.lights import Lights, make_lights
 from .passes.octree import build_octree
 from .passes.planes import planes_for
 from .passes.raster import GBuffer, make_targets, raster
@@ -83,23 +84,24 @@ def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settin
 def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings, film: GpuFilm) -> Gather:
     """Light on the surfaces in an octree, gathered by rays with exact hits."""
     bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
-    cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, settings, film.limits)
+    lights = stage("lights", make_lights, gpu_scene)
+    cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, lights, settings, film.limits)
     octree = cache.octree
-    device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels,
+    device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels, **lights.counts(),
                                    "octree bytes": octree.n_bytes, "dense bytes": octree.n_dense_bytes})
-    return lambda gbuffer, incident, sample: gather_rays(device, gpu_scene, cache, bvh, gbuffer, incident,
+    return lambda gbuffer, incident, sample: gather_rays(device, gpu_scene, cache, bvh, lights, gbuffer, incident,
                                                          settings, sample)
 
 
-def _fitting_cache(stage: Stage, gpu_scene: GpuScene, bvh: Bvh, settings: RenderSettings,
+def _fitting_cache(stage: Stage, gpu_scene: GpuScene, bvh: Bvh, lights: Lights, settings: RenderSettings,
                    limits: list[str]) -> LightCache:
     """The light cache at the asked resolution, or at the highest below it that the device has room for."""
     n = int(settings.cache_resolution)
     while True:
         try:
             octree = stage("octree", build_octree, gpu_scene, n)
-            return stage("cache", light_cache, gpu_scene, octree, bvh, settings.cache_rays, settings.injection_samples,
-                         settings.bounces)
+            return stage("cache", light_cache, gpu_scene, octree, bvh, lights, settings.cache_rays,
+                         settings.injection_samples, settings.bounces)
         except GpuError as error:
             if n <= SMALLEST_CACHE:
                 raise
@@ -111,7 +113,8 @@ def _cache_view(stage: Stage, device: Device, gpu_scene: GpuScene, settings: Ren
                 film: GpuFilm) -> Callable[[GBuffer, GpuFilm], None]:
     """The surfels of the light cache, drawn as they are."""
     bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
-    cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, settings, film.limits)
+    lights = stage("lights", make_lights, gpu_scene)
+    cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, lights, settings, film.limits)
     return lambda gbuffer, film: show_surfels(device, gpu_scene, cache, gbuffer, settings, film)
 
 

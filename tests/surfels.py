@@ -12,6 +12,7 @@ import numpy as np
 from svo_engine.gpu.device import Device
 from svo_engine.passes.bvh import build_bvh, build_meshes
 from svo_engine.passes.cache import PARTS, light_cache
+from svo_engine.passes.lights import make_lights
 from svo_engine.passes.octree import Octree, build_octree
 from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.passes.voxelize import Grid
@@ -75,7 +76,7 @@ def surfels_of(device: Device, scene: Scene, n: int) -> Surfels:
 @dataclass(frozen=True, eq=False)
 class Lit:
     """Light of each side, (n_surfels, 2, 3) f8: irradiance [W m^-2] from lamps and from all else, and radiance
-    [W m^-2 sr^-1] after the last bounce.
+    [W m^-2 sr^-1] after the last bounce, emission included.
     """
 
     surfels: Surfels
@@ -96,9 +97,10 @@ def lit_surfels(device: Device, scene: Scene, n: int = 32, rays: int = 16, point
 
         gpu_scene = keep(upload(device, scene))
         octree, trees = keep(build_octree(device, gpu_scene, n)), keep(build_meshes(device, scene.meshes))
-        cache = keep(light_cache(device, gpu_scene, octree, keep(build_bvh(device, gpu_scene, trees)), rays, points,
-                                 bounces))
+        bvh, lights = keep(build_bvh(device, gpu_scene, trees)), keep(make_lights(device, gpu_scene))
+        cache = keep(light_cache(device, gpu_scene, octree, bvh, lights, rays, points, bounces))
         surfels, n_bounces = read_surfels(gpu_scene, octree), cache.n_bounces()
         bits = cache.entries.read(16 * PARTS * 2 * len(surfels.rows)) if len(surfels.rows) else b""
     parts = np.frombuffer(bits, "f4").astype("f8").reshape(PARTS, len(surfels.rows), 2, 4)[..., :3]
-    return Lit(surfels, parts[0], parts[2], parts[3 + n_bounces % 2], n_bounces, bits)
+    sent = surfels.rows["emission"][:, None].astype("f8")
+    return Lit(surfels, parts[0], parts[2], parts[3 + n_bounces % 2] + sent, n_bounces, bits)

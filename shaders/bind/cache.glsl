@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose: the light cache: what each side of each surfel sends out. Side 0 is the one that the surfel's normal points from.
+// Purpose: the light cache: what each side of each surfel reflects. Side 0 is the one that the surfel's normal points from.
 
 #include "bind/octree.glsl"
 #include "lib/layouts.glsl"
@@ -9,9 +9,9 @@ layout(std430) readonly buffer Surfels { Surfel surfels[]; };
 layout(std430) buffer Cache { vec4 cache[]; };  // five parts, each with an entry for both sides of every surfel
 
 const uint LAMPS = 0u;     // irradiance E from the lamps [W m^-2]
-const uint STILL = 1u;     // irradiance E from what no bounce changes: the sky
+const uint STILL = 1u;     // irradiance E from what no bounce changes: the world and emissive surfaces
 const uint INDIRECT = 2u;  // irradiance E from all but the lamps: STILL and what other surfels send
-const uint RADIANCE = 3u;  // outgoing radiance L [W m^-2 sr^-1], twice: read from one, written to the other
+const uint RADIANCE = 3u;  // reflected radiance L [W m^-2 sr^-1], twice: read from one, written to the other
 
 uniform uint u_n_sides;
 

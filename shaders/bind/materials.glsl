@@ -77,15 +77,19 @@ float alpha_at(uint material, vec2 uv, bool has_textures)
     return has_textures && m.alpha_texture >= 0 ? m.alpha * texture_value(m.alpha_texture, uv) : m.alpha;
 }
 
+vec3 emission_at(uint material, vec2 uv, bool has_textures)
+{
+    Material m = materials[material];
+    return has_textures && m.emission_texture >= 0 ? m.emission * texture_color(m.emission_texture, uv) : m.emission;
+}
+
 Shading shading_at(uint material, vec2 uv, bool has_textures)
 {
     Material m = materials[material];
-    Shading s = Shading(m.base_color, m.alpha, m.emission, m.roughness, m.metallic);
+    Shading s = Shading(m.base_color, m.alpha, emission_at(material, uv, has_textures), m.roughness, m.metallic);
     if (has_textures) {
         if (m.base_color_texture >= 0)
             s.base_color *= texture_color(m.base_color_texture, uv);
-        if (m.emission_texture >= 0)
-            s.emission *= texture_color(m.emission_texture, uv);
         if (m.roughness_texture >= 0)
             s.roughness *= texture_value(m.roughness_texture, uv);
         if (m.metallic_texture >= 0)

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose:    the lamps' light on each side of each surfel, and the first outgoing radiance.
-// Formula:    L = Le + rho / pi E, E from N_POINTS points of each lamp with traced shadows
-// In:         Surfels, lamps, triangles
-// Out:        Cache: LAMPS, RADIANCE, and zeros into INDIRECT
+// Purpose:    light that is drawn on each side of each surfel, and the first radiance that it reflects.
+// Formula:    L = rho / pi E_lamps, E from N_POINTS times all draws with traced shadows
+// In:         Surfels, lights, triangles, world; Cache: STILL, what N_RAYS rays found
+// Out:        Cache: LAMPS, RADIANCE, zeros into INDIRECT; emitters and the world added to STILL
 // Invocation: one side of one surfel
 
-#include "bind/cache.glsl"
 #include "bind/lights.glsl"
+#include "cache/side.glsl"
 
 const int N_POINTS = 4;
+const int N_RAYS = 16;  // of cache/link, which find emitters and the world too
 
 uniform uint u_first;
 uniform uint u_end;
@@ -18,15 +19,20 @@ void main()
     uint side = u_first + gl_GlobalInvocationID.x;
     if (side >= u_end)
         return;
-    Surfel surfel = surfels[side / 2u];
-    Surface s;
-    s.normal = s.normal_geometric = unpack_unit(surfel.normal) * (side % 2u == 0u ? 1.0 : -1.0);
-    s.position = side_position(surfel, side, s.normal);
-    s.lift = vec3(0.0);
-    vec3 E = vec3(0.0);
-    for (int k = 0; k < N_POINTS; k++)
-        E += lamps_irradiance(s, uint(k), hash(side)) / float(N_POINTS);
+    Surface s = surface_of_side(side);
+    vec3 E = vec3(0.0), E_still = vec3(0.0);
+    for (int i = 0; i < N_POINTS * n_draws(); i++) {
+        int k = i % n_draws();
+        LightDraw draw = draw_light(k, s, uint(i / n_draws()), hash(side));
+        float NoL = max(dot(s.normal, draw.wi), 0.0);
+        if (k < n_lamp_draws(N_TREE_DRAWS))
+            E += NoL * draw.E_perp;
+        else
+            E_still += NoL * draw.E_perp * balance(float(N_POINTS) * draw.pdf, float(N_RAYS) * NoL / PI);
+    }
+    E /= float(N_POINTS);
     cache[cache_entry(LAMPS, side)] = vec4(E, 0.0);
+    cache[cache_entry(STILL, side)] += vec4(E_still / float(N_POINTS), 0.0);
     cache[cache_entry(INDIRECT, side)] = vec4(0.0);
-    cache[cache_entry(RADIANCE, side)] = vec4(surfel.emission + surfel.albedo / PI * E, 0.0);
+    cache[cache_entry(RADIANCE, side)] = vec4(surfels[side / 2u].albedo / PI * E, 0.0);
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    what each side of each surfel sees: its rays are traced once, and all bounces go along these links. They are the
 //             same in every sweep, so that sweeps converge.
-// Formula:    E_sky = pi / N sum L(w_i) of the rays that leave the scene, w_i distributed as cos
-// In:         Surfels, world, triangles
+// Formula:    E_still = pi / N sum w L(w_i) of what emissive surfaces and the world send, w_i distributed as cos; w is the
+//             weight of what cache/direct draws as well [Veach95]
+// In:         Surfels, world, triangles, lights
 // Out:        Links: the side that each ray hits, or NOTHING; Cache: STILL
 // Invocation: one side of one surfel
 
-#include "bind/cache.glsl"
-#include "bind/environment.glsl"
-#include "bind/trace.glsl"
+#include "bind/lights.glsl"
+#include "cache/side.glsl"
 
 const int N_RAYS = 16;
+const int N_POINTS = 4;           // of cache/direct
+const bool HAS_EMISSION = false;  // any material that sends out light
 
 layout(std430) writeonly buffer Links { uint links[]; };  // N_RAYS a side: the first of all sides, the second of all ...
 
@@ -26,22 +28,32 @@ uint side_hit(vec3 o, vec3 d, Hit hit)
     return cache_side(o + hit.t * d, n, d);
 }
 
+// What a ray finds that no bounce changes; pdf: of all rays, over the number of points that cache/direct draws.
+vec3 still_light(Surface s, vec3 d, bool is_hit, Hit hit, float pdf)
+{
+    if (!is_hit)
+        return world_radiance(d, 0.0) * world_weight(s, d, pdf);
+    if (!HAS_EMISSION)
+        return vec3(0.0);
+    vec2 uv = HAS_TEXTURES ? uv_at(hit.triangle, hit.bary) : vec2(0.0);
+    vec3 L = emission_at(material_of(hit.instance, hit.triangle), uv, HAS_TEXTURES);
+    return L == vec3(0.0) ? L : L * emitter_weight(s, d, hit, pdf);
+}
+
 void main()
 {
     uint side = u_first + gl_GlobalInvocationID.x;
     if (side >= u_end)
         return;
-    Surfel s = surfels[side / 2u];
-    vec3 n = unpack_unit(s.normal) * (side % 2u == 0u ? 1.0 : -1.0);
-    vec3 o = side_position(s, side, n), E = vec3(0.0);
-    mat3 frame = frame_of(n);
+    Surface s = surface_of_side(side);
+    vec3 E = vec3(0.0);
+    mat3 frame = frame_of(s.normal);
     for (uint k = 0u; k < uint(N_RAYS); k++) {
-        vec3 d = frame * cosine_direction(sobol_point(k, hash(side)));
+        vec3 local = cosine_direction(sobol_point(k, hash(side))), d = frame * local;
         Hit hit;
-        bool is_hit = trace_closest(o, d, INFINITE, hash(side) + k, hit);
-        links[k * u_n_sides + side] = is_hit ? side_hit(o, d, hit) : NOTHING;
-        if (!is_hit)
-            E += PI / float(N_RAYS) * world_radiance(d, 0.0);
+        bool is_hit = trace_closest(s.position, d, INFINITE, hash(side) + k, hit);
+        links[k * u_n_sides + side] = is_hit ? side_hit(s.position, d, hit) : NOTHING;
+        E += PI / float(N_RAYS) * still_light(s, d, is_hit, hit, float(N_RAYS) / float(N_POINTS) * local.z / PI);
     }
     cache[cache_entry(STILL, side)] = vec4(E, 0.0);
 }

@@ -6,8 +6,6 @@
 #include "bind/principled.glsl"
 #include "bind/surface.glsl"
 
-const bool HAS_TEXTURES = false;
-
 uniform uint u_sample;
 
 // A surface met by a ray, its normals turned against the ray.
@@ -29,7 +27,7 @@ Met met_at(Hit hit, vec3 d)
 // Irradiance of a met surface: lamps exactly, all else from the cache.
 vec3 arriving(Met met, uint sample_index, uint seed)
 {
-    vec3 E = lamps_irradiance(met.surface, sample_index, seed);
+    vec3 E = lamps_irradiance(met.surface, 1, sample_index, seed);
     return met.side == NOTHING ? E : E + cache[cache_entry(INDIRECT, met.side)].rgb;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Octree -> LightCache: what each side of each surfel sends out, the lamps' light and all bounces."""
+"""Octree -> LightCache: what each side of each surfel reflects, the lights' light and all bounces."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from .bvh import TRACE, TRACE_UNIFORMS, Bvh
+from .lights import LIGHT_TEXTURES, LIGHT_UNIFORMS, LIGHTS, Lights
 from .octree import TREE, Octree
 from .upload import GpuScene
 from .voxelize import GEOMETRY, GRID, MATERIALS
@@ -21,10 +22,12 @@ CACHE = ("Octree", "Surfels", "Cache")
 CACHE_UNIFORMS = (*GRID, *TREE, "u_n_sides")
 PARTS = 5  # vec4 a side, see bind/cache.glsl
 
-LINK = Pass(("cache/link.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Links"), textures=("u_env", *TRACE),
-            uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD))
-DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Lights"), textures=TRACE,
-              uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS))
+LINK = Pass(("cache/link.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS, "Links"),
+            textures=("u_env", *TRACE, *LIGHT_TEXTURES),
+            uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS))
+DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS),
+              textures=("u_env", *TRACE, *LIGHT_TEXTURES),
+              uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS))
 BOUNCE = Pass(("cache/bounce.comp.glsl",), (*CACHE, "Links", "Changes"),
               uniforms=(*CACHE_UNIFORMS, "u_sweep", "u_tolerance"))
 
@@ -51,20 +54,22 @@ class LightCache:
         return _n_done(self.changes, self.max_bounces)
 
 
-def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, n_rays: int, n_points: int,
-                max_bounces: int) -> LightCache:
-    """Light the surfels: lamps, then bounces until the change is below TOLERANCE or `max_bounces` were done."""
+def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights, n_rays: int,
+                n_points: int, max_bounces: int) -> LightCache:
+    """Light the surfels: what is drawn, then bounces until the change is below TOLERANCE or `max_bounces` were done."""
     scope, n_sides = device.scope(), 2 * octree.n_surfels
     entries = scope.buffer("light cache", 16 * PARTS * n_sides)
     changes = scope.buffer("changes", 4 * max_bounces, clear=True)
-    constants = {"HAS_ALPHA": gpu_scene.has_alpha, **bvh.constants()}
-    lamps = {"N_LIGHTS": len(gpu_scene.scene.lights), "N_POINTS": n_points}
+    constants = {"HAS_ALPHA": gpu_scene.has_alpha, "HAS_TEXTURES": gpu_scene.has_textures, "N_RAYS": n_rays,
+                 "N_POINTS": n_points, **bvh.constants(), **lights.constants()}
     cache = _resources(octree, entries)
-    resources = {**gpu_scene.geometry, **gpu_scene.materials, **bvh.resources(), **cache}
+    resources = {**gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(), **bvh.resources(), **cache,
+                 **lights.resources()}
     with device.scope() as scratch:
         links = scratch.buffer("cache links", 4 * n_rays * n_sides)
-        device.dispatch(LINK, n_sides, {"N_RAYS": n_rays, **constants}, **resources, **gpu_scene.world(), Links=links)
-        device.dispatch(DIRECT, n_sides, {**constants, **lamps}, **resources, Lights=gpu_scene.lights)
+        has_emission = {"HAS_EMISSION": gpu_scene.emission_unit > 0}
+        device.dispatch(LINK, n_sides, {**constants, **has_emission}, **resources, Links=links)
+        device.dispatch(DIRECT, n_sides, constants, **resources)
         for sweep in range(max_bounces):
             if sweep and sweep % BATCH == 0 and _n_done(changes, sweep) < sweep:
                 break

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """GpuScene -> Lights: what bind/lights.glsl draws light from: lamps, emissive triangles, the world's image.
 
-A few lamps are drawn each by itself, which is exact but for their shadows' noise. Many are drawn from a tree, and so are
-emissive triangles. Suns are everywhere equally near, so each is drawn by itself.
+A few lamps are drawn each by itself, which is exact but for the noise of their shadows. Many are drawn from a tree, and
+so are emissive triangles. Suns are everywhere equally near, so each is drawn by itself.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ from ...scene.types import Material, Mesh, Scene
 from ..upload import GpuScene, linear_pixels
 
 MOST = 1 << 17  # triangles; what goes beyond is large enough to be found by rays alone
+EASY = 0.25  # of the area of all surfaces: rays find more than that often enough by themselves, with less noise
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,9 +32,13 @@ class Emitters:
 
 
 def emitters_of(gpu_scene: GpuScene) -> Emitters:
-    """The emissive triangles of as many instances as MOST allows, those with the fewest triangles first."""
+    """The emissive triangles that rays would not find: of materials that are not EASY, and of as many instances as MOST
+    allows, those with the fewest triangles first.
+    """
     scene, inst = gpu_scene.scene, gpu_scene.scene.instances
     radiance = np.array([_mean_radiance(scene, material) for material in scene.materials] or [0.0])
+    if radiance.any():
+        radiance[_area_shares(scene) > EASY] = 0.0
     order = np.argsort(inst.mesh, kind="stable")
     first_triangle = np.cumsum([0] + [len(mesh.triangles) for mesh in scene.meshes])
     first_work = np.cumsum([0] + [len(scene.meshes[m].triangles) for m in inst.mesh[order]])
@@ -44,7 +49,7 @@ def emitters_of(gpu_scene: GpuScene) -> Emitters:
         i = order[number]
         mesh, m, own = scene.meshes[inst.mesh[i]], inst.world_from_object[i], np.flatnonzero(sent)
         corners = _corners(mesh, m, own) - gpu_scene.centre_ws
-        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+        area = _areas(corners)
         columns = (first_work[number] + own, np.full(len(own), number), first_triangle[inst.mesh[i]] + own,
                    corners.min(1), corners.max(1), sent[own] * area)
         parts.append([column[area > 0] for column in columns])
@@ -58,6 +63,24 @@ def _mean_radiance(scene: Scene, material: Material) -> float:
     if material.emission_texture >= 0:
         color *= linear_pixels(scene.images[scene.textures[material.emission_texture].image])[..., :3].mean((0, 1))
     return max(float(color.mean()) * material.alpha, 0.0)
+
+
+def _area_shares(scene: Scene) -> np.ndarray:
+    """(n_materials,) f8: each material's part of the area of all surfaces, which is about the part of all rays that hit
+    it. An instance's scale counts as if it were the same along all axes.
+    """
+    areas = np.zeros(len(scene.materials))
+    of_slots = [np.bincount(mesh.material_slots, _areas(mesh.positions[mesh.triangles])) for mesh in scene.meshes]
+    scales = np.abs(np.linalg.det(scene.instances.world_from_object[:, :3, :3])) ** (2 / 3)
+    for i, mesh in enumerate(scene.instances.mesh):
+        slots = _slots(scene, i)
+        np.add.at(areas, slots[np.minimum(np.arange(len(of_slots[mesh])), len(slots) - 1)], scales[i] * of_slots[mesh])
+    return areas / max(areas.sum(), 1e-30)
+
+
+def _areas(corners: np.ndarray) -> np.ndarray:
+    """(n,) of triangles (n, 3, 3)."""
+    return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
 
 
 def _slots(scene: Scene, i: int) -> np.ndarray:

@@ -47,7 +47,7 @@ def _reduced(light: np.ndarray) -> np.ndarray:
 
 
 def _interpolated(light: np.ndarray) -> np.ndarray:
-    """Means (h, w) over texels of what bilinear interpolation makes of them; columns go round, rows end at the poles."""
+    """Means (h, w) over texels of what bilinear interpolation makes of them; columns go round, rows end at poles."""
     sides = np.roll(light, 1, 1) + np.roll(light, -1, 1)
     light = (6 * light + sides) / 8
     return (6 * light + np.vstack([light[:1], light[:-1]]) + np.vstack([light[1:], light[-1:]])) / 8
