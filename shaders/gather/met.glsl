@@ -7,6 +7,16 @@
 #include "bind/surface.glsl"
 
 uniform uint u_sample;
+uniform uint u_n_samples;  // of the picture, rounded up to a power of 2
+
+uint number;  // of this pixel's points in all sequences
+
+// Pixels one after another along a Z-order curve, u_n_samples numbers each: neighbours share the square of a sequence as
+// evenly as the samples of one pixel do, so that little noise is left where a filter joins them [Ahmed20].
+uint point_number(ivec2 pixel)
+{
+    return z_order(uvec2(pixel)) * u_n_samples + u_sample;
+}
 
 // A surface met by a ray, its normals turned against the ray.
 struct Met {
@@ -35,7 +45,7 @@ vec3 arriving(Met met, uint sample_index, uint seed)
 // everywhere.
 vec3 reflected(Met met, uint seed)
 {
-    return mean_albedo(materials[met.surface.material], met.shading) / PI * arriving(met, u_sample, seed);
+    return mean_albedo(materials[met.surface.material], met.shading) / PI * arriving(met, number, seed);
 }
 
 // All light that leaves a met surface against a diffuse ray.

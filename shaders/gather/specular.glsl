@@ -46,7 +46,7 @@ vec3 drawn_light(Vertex v, bool is_through, uint seed)
     if (is_through)
         s.normal = -s.normal, s.normal_geometric = -s.normal_geometric, s.lift = vec3(0.0);
     for (int k = 0; k < n_draws(); k++) {
-        LightDraw draw = draw_light(k, s, u_sample, seed);
+        LightDraw draw = draw_light(k, s, number, seed);
         if (draw.E_perp == vec3(0.0))
             continue;
         float pdf;
@@ -82,8 +82,8 @@ Found follow(Vertex v, uint seed)
     vec3 beta = vec3(1.0);
     for (int n = 1; n < N_VERTICES; n++) {
         seed = hash(seed);
-        vec2 chances = sobol_point(u_sample, seed + 1u);
-        Drawn drawn = sample_specular(v.bsdf, v.wo, sobol_point(u_sample, seed + 2u), chances.x);
+        vec2 chances = sobol_point(number, seed + 1u);
+        Drawn drawn = sample_specular(v.bsdf, v.wo, sobol_point(number, seed + 2u), chances.x);
         vec3 d = v.frame * drawn.wi;
         beta *= drawn.weight;
         if (n == 1)
@@ -93,7 +93,7 @@ Found follow(Vertex v, uint seed)
         Hit hit;
         Met met;
         vec3 o = offset_origin(v.surface.position, v.surface.normal_geometric, d);
-        bool is_hit = trace_closest(o, d, INFINITE, hash(seed + u_sample), hit);
+        bool is_hit = trace_closest(o, d, INFINITE, hash(seed + number), hit);
         if (is_hit)
             met = met_at(hit, d);
         vec3 L = beta * found_light(v, d, is_hit, hit, met, drawn.pdf);
@@ -108,7 +108,7 @@ Found follow(Vertex v, uint seed)
         bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.glass == vec3(0.0));
         vec3 ending = v.bsdf.diffuse + (is_last ? v.bsdf.glossy : vec3(0.0));
         if (ending != vec3(0.0))
-            found.indirect += beta * ending / PI * arriving(met, u_sample, seed);
+            found.indirect += beta * ending / PI * arriving(met, number, seed);
         float chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
         if (is_last || chances.y >= chance)
             break;

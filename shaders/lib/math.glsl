@@ -70,6 +70,17 @@ vec2 sobol_point(uint i, uint seed)
     return vec2(bitfieldReverse(p) >> 8u) / 16777216.0;
 }
 
+// Number of a place along the Z-order curve: the bits of x and y in turns [Morton66]. Up to 65535 each.
+uint z_order(uvec2 at)
+{
+    at &= 0xffffu;
+    at = (at | at << 8u) & 0x00ff00ffu;
+    at = (at | at << 4u) & 0x0f0f0f0fu;
+    at = (at | at << 2u) & 0x33333333u;
+    at = (at | at << 1u) & 0x55555555u;
+    return at.x | at.y << 1u;
+}
+
 // Uniform on the unit disk, area preserving and without seams [Shirley97].
 vec2 disk_point(vec2 u)
 {
