@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose:    the light that arrives at each pixel, by rays with exact hits: lamps with traced shadows, diffuse light by
-//             cosine-distributed rays, reflections by visible GGX normals; all later bounces from the light cache.
+// Purpose:    the light that arrives at each pixel, by rays with exact hits: lamps, emitters and the world drawn, with traced
+//             shadows; diffuse light by cosine-distributed rays, reflections by visible GGX normals; all later bounces from
+//             the light cache. What draws and rays both find is weighed by the balance heuristic [Veach95].
 // Formula:    E = pi / N sum L(w_i), w_i distributed as cos; specular f cos / pdf = F G2 / G1 [Heitz18]
-// In:         G-buffer, scene, BVH, lamps, light cache, world
+// In:         G-buffer, scene, BVH, lights, light cache, world
 // Out:        u_incident
 // Invocation: one pixel
 
@@ -18,6 +19,19 @@ uniform uint u_first;
 uniform uint u_end;
 uniform uint u_seed;
 
+// Irradiance that is drawn. Diffuse rays find emitters and the world too, but no lamps.
+vec3 drawn_irradiance(Surface s, uint seed)
+{
+    vec3 E = vec3(0.0);
+    for (int k = 0; k < n_draws(); k++) {
+        LightDraw draw = draw_light(k, s, number, seed);
+        float NoL = max(dot(s.normal, draw.wi), 0.0);
+        float pdf_rays = k < n_lamp_draws(N_TREE_DRAWS) ? 0.0 : float(N_RAYS) * NoL / PI;
+        E += NoL * balance(draw.pdf, pdf_rays) * draw.E_perp;
+    }
+    return E;
+}
+
 // found: the part of it that comes from emitters and the world.
 vec3 diffuse_light(Surface s, uint seed, out vec3 found)
 {
@@ -25,17 +39,19 @@ vec3 diffuse_light(Surface s, uint seed, out vec3 found)
     vec3 E = vec3(0.0);
     found = vec3(0.0);
     for (int k = 0; k < N_RAYS; k++) {
-        vec3 d = frame * cosine_direction(sobol_point(number * uint(N_RAYS) + uint(k), seed));
+        vec3 local = cosine_direction(sobol_point(number * uint(N_RAYS) + uint(k), seed)), d = frame * local;
         if (dot(d, s.normal_geometric) <= 0.0)
             continue;
         Hit hit;
+        float pdf = float(N_RAYS) * local.z / PI;
         uint ray_seed = hash(seed + uint(k) + 1u);
         if (trace_closest(offset_origin(s.position, s.normal_geometric, d), d, INFINITE, hash(ray_seed + number), hit)) {
             Met met = met_at(hit, d);
-            found += met.shading.emission;
+            if (met.shading.emission != vec3(0.0))
+                found += met.shading.emission * emitter_weight(s, d, hit, pdf);
             E += reflected(met, ray_seed);
         } else {
-            found += world_radiance(d, 0.0);
+            found += world_radiance(d, 0.0) * world_weight(s, d, pdf);
         }
     }
     found *= PI / float(N_RAYS);
@@ -58,7 +74,7 @@ void main()
         Surface s = seen.surface;
         uint seed = hash(u_seed);
         number = point_number(pixel);
-        E_direct = lamps_irradiance(s, number, seed);
+        E_direct = drawn_irradiance(s, seed);
         if (HAS_INDIRECT)
             E_indirect = diffuse_light(s, seed, E_found);
         to_surface = distance(eye, s.position);

@@ -14,6 +14,7 @@ from ..settings import RenderSettings
 from .bvh import TRACE, TRACE_UNIFORMS, Bvh
 from .cache import CACHE, CACHE_UNIFORMS, WORLD, LightCache
 from .light import LitVoxels
+from .lights import LIGHT_TEXTURES, LIGHT_UNIFORMS, LIGHTS, Lights
 from .raster import GBuffer
 from .upload import GpuScene
 from .voxelize import GEOMETRY, GRID, MATERIALS
@@ -27,9 +28,11 @@ CONES = Pass(("gather/cones.comp.glsl",), (*GEOMETRY, *MATERIALS, "Lights"),
              uniforms=(*CAMERA, *WORLD, *GRID, "u_cone_offset", "u_cone_step", "u_cone_distance", "u_sample", "u_seed",
                        "u_ring_angle", "u_tan_half_aperture", "u_tan_half_shadow", "u_specular_cone"))
 
-RAYS = Pass(("gather/rays.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Lights"),
-            textures=("u_visibility", "u_tiles", "u_env", "u_albedo", *TRACE), images=("u_incident",),
-            uniforms=(*CAMERA, *WORLD, *CACHE_UNIFORMS, *TRACE_UNIFORMS, "u_sample", "u_n_samples", "u_seed"))
+RAYS = Pass(("gather/rays.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS),
+            textures=("u_visibility", "u_tiles", "u_env", "u_albedo", *TRACE, *LIGHT_TEXTURES),
+            images=("u_incident",),
+            uniforms=(*CAMERA, *WORLD, *CACHE_UNIFORMS, *TRACE_UNIFORMS, *LIGHT_UNIFORMS, "u_sample",
+                      "u_n_samples", "u_seed"))
 
 MOST = 1024  # samples that get numbers of a pixel's own; past them it goes on with its neighbours'
 
@@ -73,16 +76,17 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: G
         u_specular_cone=settings.specular_cone)
 
 
-def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh, gbuffer: GBuffer, incident: Incident,
-                settings: RenderSettings, sample: int) -> None:
+def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, bvh: Bvh, lights: Lights, gbuffer: GBuffer,
+                incident: Incident, settings: RenderSettings, sample: int) -> None:
     """Fill `incident` for one sample by rays."""
-    constants = {"N_LIGHTS": len(gpu_scene.scene.lights), **gpu_scene.surface_constants(),
-                 "HAS_INDIRECT": gpu_scene.has_light, "HAS_ALPHA": gpu_scene.has_alpha, "N_RAYS": settings.gather_rays,
-                 **incident.constants(), **gbuffer.constants(), **bvh.constants()}
+    constants = {**gpu_scene.surface_constants(), "HAS_INDIRECT": gpu_scene.has_light,
+                 "HAS_ALPHA": gpu_scene.has_alpha, "N_RAYS": settings.gather_rays, **incident.constants(),
+                 **gbuffer.constants(), **bvh.constants(), **lights.constants()}
     device.dispatch(
         RAYS, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
-        **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), u_tiles=gbuffer.tiles,
-        u_incident=incident.layers, Lights=gpu_scene.lights, u_albedo=gpu_scene.albedo, u_sample=sample,
+        **gbuffer.uniforms(), **cache.resources(), **bvh.resources(), **lights.resources(), u_tiles=gbuffer.tiles,
+        u_incident=incident.layers, u_albedo=gpu_scene.albedo, u_sample=sample,
         u_n_samples=1 << min(settings.samples - 1, MOST - 1).bit_length(), u_seed=settings.seed)
     width, height = gbuffer.targets.size
     device.profiler.counts["diffuse rays"] += width * height * settings.gather_rays
+    device.profiler.counts["light draws"] += width * height * lights.n_draws
