@@ -36,24 +36,35 @@ Vertex vertex_at(Surface s, Shading shading, vec3 wo)
     return Vertex(s, principled(materials[s.material], shading, dot(s.normal, wo), s.is_back), frame, wo * frame);
 }
 
-// Light that is drawn on one side of the surface and leaves towards wo.
-vec3 drawn_light(Vertex v, bool is_through, uint seed)
+// The same surface as lit from behind.
+Surface turned_round(Surface s)
 {
+    s.normal = -s.normal;
+    s.normal_geometric = -s.normal_geometric;
+    s.lift = vec3(0.0);
+    return s;
+}
+
+// Light that is drawn on wo's side, and behind glass that spreads it, and leaves towards wo. One loop for both sides: every
+// place that traces rays takes compilers seconds.
+void drawn_light(Vertex v, uint seed, out vec3 reflected, out vec3 transmitted)
+{
+    reflected = transmitted = vec3(0.0);
+    int n_sides = v.bsdf.alpha <= SMOOTH ? 0 : HAS_GLASS && v.bsdf.glass != vec3(0.0) && is_bending(v.bsdf) ? 2 : 1;
     Surface s = v.surface;
-    vec3 L = vec3(0.0);
-    if (v.bsdf.alpha <= SMOOTH || (is_through && (v.bsdf.glass == vec3(0.0) || !is_bending(v.bsdf))))
-        return L;
-    if (is_through)
-        s.normal = -s.normal, s.normal_geometric = -s.normal_geometric, s.lift = vec3(0.0);
-    for (int k = 0; k < n_draws(); k++) {
-        LightDraw draw = draw_light(k, s, number, seed);
+    for (int i = 0; i < n_sides * n_draws(); i++) {
+        bool is_through = i >= n_draws();
+        if (is_through && i == n_draws())
+            s = turned_round(s);
+        LightDraw draw = draw_light(is_through ? i - n_draws() : i, s, number, is_through ? hash(seed) : seed);
         if (draw.E_perp == vec3(0.0))
             continue;
         float pdf;
         vec3 f = evaluate_specular(v.bsdf, v.wo, draw.wi * v.frame, pdf);
-        L += f * draw.E_perp * balance(draw.pdf, pdf);
+        vec3 L = f * draw.E_perp * balance(draw.pdf, pdf);
+        reflected += is_through ? vec3(0.0) : L;
+        transmitted += is_through ? L : vec3(0.0);
     }
-    return L;
 }
 
 // Emission that a ray finds: of lamps, of the surface that it hits, or of the world.
@@ -67,73 +78,72 @@ vec3 found_light(Vertex v, vec3 d, bool is_hit, Hit hit, Met met, float pdf)
     return L;
 }
 
-// What a path finds: `direct` along its first ray, `indirect` after it.
-struct Found {
-    vec3 direct;
-    vec3 indirect;
-    bool is_through;  // the first ray
-    float distance;
+// What a ray of a path came to.
+struct Step {
+    bool is_hit;
+    Met met;
+    float t;
+    vec3 emitted;  // radiance
 };
 
-// One random path from v on. Each vertex reflects or lets through, and goes on with twice its albedo as probability.
-Found follow(Vertex v, uint seed)
+Step step_along(Vertex v, vec3 d, float pdf, uint seed)
 {
-    Found found = Found(vec3(0.0), vec3(0.0), false, INFINITE);
-    vec3 beta = vec3(1.0);
-    for (int n = 1; n < N_VERTICES; n++) {
-        seed = hash(seed);
-        vec2 chances = sobol_point(number, seed + 1u);
-        Drawn drawn = sample_specular(v.bsdf, v.wo, sobol_point(number, seed + 2u), chances.x);
-        vec3 d = v.frame * drawn.wi;
-        beta *= drawn.weight;
-        if (n == 1)
-            found.is_through = drawn.is_through;
-        if (beta == vec3(0.0) || (dot(d, v.surface.normal_geometric) < 0.0) != drawn.is_through)
-            break;
-        Hit hit;
-        Met met;
-        vec3 o = offset_origin(v.surface.position, v.surface.normal_geometric, d);
-        bool is_hit = trace_closest(o, d, INFINITE, hash(seed + number), hit);
-        if (is_hit)
-            met = met_at(hit, d);
-        vec3 L = beta * found_light(v, d, is_hit, hit, met, drawn.pdf);
-        if (n == 1)
-            found.direct = L, found.distance = hit.t;
-        else
-            found.indirect += L;
-        if (!is_hit)
-            break;
-        v = vertex_at(met.surface, met.shading, -d);
-        vec3 albedo = v.bsdf.glossy + v.bsdf.transmission;
-        bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.glass == vec3(0.0));
-        vec3 ending = v.bsdf.diffuse + (is_last ? v.bsdf.glossy : vec3(0.0));
-        if (ending != vec3(0.0))
-            found.indirect += beta * ending / PI * arriving(met, number, seed);
-        float chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
-        if (is_last || chances.y >= chance)
-            break;
-        beta /= chance;
-        found.indirect += beta * (drawn_light(v, false, seed + 3u) + drawn_light(v, true, seed + 4u));
-    }
-    return found;
+    Step step;
+    Hit hit;
+    vec3 o = offset_origin(v.surface.position, v.surface.normal_geometric, d);
+    step.is_hit = trace_closest(o, d, INFINITE, hash(seed + number), hit);
+    step.t = hit.t;
+    if (step.is_hit)
+        step.met = met_at(hit, d);
+    step.emitted = found_light(v, d, step.is_hit, hit, step.met, pdf);
+    return step;
 }
 
+// One random path. Each vertex reflects or lets through, and goes on with twice its albedo as probability.
 SpecularLight specular_light(Surface s, Shading shading, vec3 wo, uint seed)
 {
     SpecularLight light = no_light();
     Vertex v = vertex_at(s, shading, wo);
-    if (v.bsdf.glossy + v.bsdf.transmission == vec3(0.0))
-        return light;
-    light.glossy_direct = drawn_light(v, false, seed);
-    light.transmission_direct = drawn_light(v, true, hash(seed + 1u));
-    Found found = follow(v, hash(seed + 2u));
-    if (found.is_through) {
-        light.transmission_direct += found.direct;
-        light.transmission_indirect = found.indirect;
+    vec3 beta = vec3(1.0), direct = vec3(0.0), indirect = vec3(0.0);
+    bool is_first_through = false;
+    for (int n = 1; n < N_VERTICES && v.bsdf.glossy + v.bsdf.transmission != vec3(0.0); n++) {
+        vec3 reflected, transmitted;
+        drawn_light(v, seed + 3u, reflected, transmitted);
+        if (n == 1)
+            light.glossy_direct = reflected, light.transmission_direct = transmitted;
+        else
+            indirect += beta * (reflected + transmitted);
+        vec2 chances = sobol_point(number, seed + 1u);
+        Drawn drawn = sample_specular(v.bsdf, v.wo, sobol_point(number, seed + 2u), chances.x);
+        vec3 d = v.frame * drawn.wi;
+        beta *= drawn.weight;
+        if (beta == vec3(0.0) || (dot(d, v.surface.normal_geometric) < 0.0) != drawn.is_through)
+            break;
+        Step step = step_along(v, d, drawn.pdf, seed);
+        if (n == 1)
+            direct = beta * step.emitted, is_first_through = drawn.is_through, light.distance = step.t;
+        else
+            indirect += beta * step.emitted;
+        if (!step.is_hit)
+            break;
+        seed = hash(seed);
+        v = vertex_at(step.met.surface, step.met.shading, -d);
+        bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.glass == vec3(0.0));
+        vec3 ending = v.bsdf.diffuse + (is_last ? v.bsdf.glossy : vec3(0.0)), albedo = v.bsdf.glossy + v.bsdf.transmission;
+        if (ending != vec3(0.0))
+            indirect += beta * ending / PI * arriving(step.met, number, seed);
+        float chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
+        if (is_last || chances.y >= chance)
+            break;
+        beta /= chance;
+    }
+    if (is_first_through) {
+        light.transmission_direct += direct;
+        light.transmission_indirect = indirect;
+        light.distance = 0.0;
     } else {
-        light.glossy_direct += found.direct;
-        light.glossy_indirect = found.indirect;
-        light.distance = found.distance;
+        light.glossy_direct += direct;
+        light.glossy_indirect = indirect;
     }
     return light;
 }
