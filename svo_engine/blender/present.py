@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..film import Film
+from .render_passes import blender_name
 
 # The largest finite 16-bit float: a brighter pixel would turn into infinity, which the view transform cannot show
 _LARGEST_HALF = 65504.0
@@ -18,7 +19,7 @@ def fill_result(result: bpy.types.RenderResult, film: Film, view: str = "") -> N
     """Copy the film's planes into the passes of `result` for the stereo view `view` ("": there is only one)."""
     passes = result.layers[0].passes
     for name, plane in film.planes.items():
-        if (render_pass := passes.find_by_name(name, view)) is not None:
+        if (render_pass := passes.find_by_name(blender_name(name), view)) is not None:
             # One flat array of 32-bit floats: Blender copies that at once, and anything else value by value
             render_pass.rect.foreach_set(np.ascontiguousarray(plane, "f4").ravel())
 

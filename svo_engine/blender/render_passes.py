@@ -14,6 +14,12 @@ SWITCHES = {"Depth": "use_pass_z", "Emission": "use_pass_emit",
             **{name: f"use_pass_{name.lower().replace(' ', '_')}" for name in PASSES
                if name.startswith(("Position", "Normal", "Diffuse", "Glossy", "Transmission", "Environment"))}}
 
+# Before version 5 Blender has shorter names for some
+_SHORT = {"Emission": "Emit", "Environment": "Env",
+          **{f"{kind} {part}": f"{short}{part_short}"
+             for kind, short in (("Diffuse", "Diff"), ("Glossy", "Gloss"), ("Transmission", "Trans"))
+             for part, part_short in (("Direct", "Dir"), ("Indirect", "Ind"), ("Color", "Col"))}}
+
 _KINDS = {1: "VALUE", 4: "COLOR"}
 
 
@@ -26,6 +32,11 @@ class SVOLayerSettings(bpy.types.PropertyGroup):
     denoising_data: bpy.props.BoolProperty(  # type: ignore[valid-type]
         name="Denoising Data", update=_update, default=False,
         description="Passes that a denoiser in the compositor needs: the noisy picture, normals, albedo, depth")
+
+
+def blender_name(name: str) -> str:
+    """What this version of Blender calls the pass `name`."""
+    return _SHORT.get(name, name) if bpy.app.version < (5, 0) else name
 
 
 def passes_of(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> tuple[str, ...]:
@@ -52,7 +63,7 @@ def list_passes(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, layer: b
     for name in passes_of(scene, layer):
         channels = PASSES[name]
         kind = "VECTOR" if channels == "XYZ" else _KINDS.get(len(channels), "COLOR")
-        engine.register_pass(scene, layer, name, len(channels), channels, kind)
+        engine.register_pass(scene, layer, blender_name(name), len(channels), channels, kind)
 
 
 def register() -> None:
