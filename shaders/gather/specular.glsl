@@ -79,24 +79,24 @@ vec3 found_light(Vertex v, vec3 d, bool is_hit, Hit hit, Met met, float pdf)
 }
 
 // What a ray of a path came to.
-struct Step {
+struct Leg {
     bool is_hit;
     Met met;
     float t;
     vec3 emitted;  // radiance
 };
 
-Step step_along(Vertex v, vec3 d, float pdf, uint seed)
+Leg leg_along(Vertex v, vec3 d, float pdf, uint seed)
 {
-    Step step;
+    Leg leg;
     Hit hit;
     vec3 o = offset_origin(v.surface.position, v.surface.normal_geometric, d);
-    step.is_hit = trace_closest(o, d, INFINITE, hash(seed + number), hit);
-    step.t = hit.t;
-    if (step.is_hit)
-        step.met = met_at(hit, d);
-    step.emitted = found_light(v, d, step.is_hit, hit, step.met, pdf);
-    return step;
+    leg.is_hit = trace_closest(o, d, INFINITE, hash(seed + number), hit);
+    leg.t = hit.t;
+    if (leg.is_hit)
+        leg.met = met_at(hit, d);
+    leg.emitted = found_light(v, d, leg.is_hit, hit, leg.met, pdf);
+    return leg;
 }
 
 // One random path. Each vertex reflects or lets through, and goes on with twice its albedo as probability.
@@ -119,19 +119,19 @@ SpecularLight specular_light(Surface s, Shading shading, vec3 wo, uint seed)
         beta *= drawn.weight;
         if (beta == vec3(0.0) || (dot(d, v.surface.normal_geometric) < 0.0) != drawn.is_through)
             break;
-        Step step = step_along(v, d, drawn.pdf, seed);
+        Leg leg = leg_along(v, d, drawn.pdf, seed);
         if (n == 1)
-            direct = beta * step.emitted, is_first_through = drawn.is_through, light.distance = step.t;
+            direct = beta * leg.emitted, is_first_through = drawn.is_through, light.distance = leg.t;
         else
-            indirect += beta * step.emitted;
-        if (!step.is_hit)
+            indirect += beta * leg.emitted;
+        if (!leg.is_hit)
             break;
         seed = hash(seed);
-        v = vertex_at(step.met.surface, step.met.shading, -d);
+        v = vertex_at(leg.met.surface, leg.met.shading, -d);
         bool is_last = n + 1 == N_VERTICES || (v.bsdf.alpha >= ROUGH && v.bsdf.glass == vec3(0.0));
         vec3 ending = v.bsdf.diffuse + (is_last ? v.bsdf.glossy : vec3(0.0)), albedo = v.bsdf.glossy + v.bsdf.transmission;
         if (ending != vec3(0.0))
-            indirect += beta * ending / PI * arriving(step.met, number, seed);
+            indirect += beta * ending / PI * arriving(leg.met, number, seed);
         float chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
         if (is_last || chances.y >= chance)
             break;
