@@ -81,7 +81,7 @@ class RenderSettings:
                                  "Sampling", low=0, high=86400, unit="s")
     seed: int = _setting(0, "Seed", "Another number gives another pattern of noise", "Sampling", low=0, high=2**31 - 1)
     gather_rays: int = _setting(4, "Diffuse Rays", "Rays of each pixel and sample that look for indirect light", "Rays",
-                                low=1, high=64)
+                                low=1, high=16)
     cache_resolution: str = _setting("128", "Light Cache",
                                      "Voxels along the longest side of the octree that holds the light",
                                      "Rays", choices=CACHE_RESOLUTIONS)

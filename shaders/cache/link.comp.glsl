@@ -10,7 +10,7 @@
 #include "bind/lights.glsl"
 #include "cache/side.glsl"
 
-const int N_RAYS = 16;
+const int N_RAYS = 16;            // of each side, in all rounds
 const int N_POINTS = 4;           // of cache/direct
 const bool HAS_EMISSION = false;  // any material that sends out light
 
@@ -18,6 +18,8 @@ layout(std430) writeonly buffer Links { uint links[]; };  // N_RAYS a side: the 
 
 uniform uint u_first;
 uniform uint u_end;
+uniform uint u_first_ray;  // of this round
+uniform uint u_end_ray;
 
 // The side of the cache that a ray hits.
 uint side_hit(vec3 o, vec3 d, Hit hit)
@@ -48,12 +50,14 @@ void main()
     Surface s = surface_of_side(side);
     vec3 E = vec3(0.0);
     mat3 frame = frame_of(s.normal);
-    for (uint k = 0u; k < uint(N_RAYS); k++) {
+    for (uint k = u_first_ray; k < u_end_ray; k++) {
         vec3 local = cosine_direction(sobol_point(k, hash(side))), d = frame * local;
         Hit hit;
         bool is_hit = trace_closest(s.position, d, INFINITE, hash(side) + k, hit);
         links[k * u_n_sides + side] = is_hit ? side_hit(s.position, d, hit) : NOTHING;
         E += PI / float(N_RAYS) * still_light(s, d, is_hit, hit, float(N_RAYS) / float(N_POINTS) * local.z / PI);
     }
+    if (u_first_ray > 0u)
+        E += cache[cache_entry(STILL, side)].rgb;
     cache[cache_entry(STILL, side)] = vec4(E, 0.0);
 }

@@ -15,6 +15,7 @@ from ..errors import Cancelled, ShaderError
 from . import glsl
 from .context import create_context
 from .passes import Pass
+from .pool import Pool
 from .profiler import Profiler
 from .program import Program, Value
 from .scope import GpuScope
@@ -42,6 +43,7 @@ class Device:
         self.limits = self.ctx.info
         self.stop = threading.Event()
         self.scopes: set[GpuScope] = set()
+        self.pool = Pool()
         self.profiler = Profiler(self.ctx)
         self._programs: dict[tuple[Any, ...], Program] = {}
         self._vertex_arrays: dict[int, moderngl.VertexArray] = {}
@@ -121,6 +123,7 @@ class Device:
         """Release every scope, program and the context."""
         for scope in list(self.scopes):
             scope.close()
+        self.pool.clear()
         for vertex_array in self._vertex_arrays.values():
             vertex_array.release()
         for program in self._programs.values():

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any, Self
 
@@ -12,6 +13,7 @@ import numpy as np
 from ..errors import GpuError
 from .calls import clear_buffer, clear_texture
 from .cube import Cube
+from .pool import Pool
 from .texels import TEXEL, Texels
 
 if TYPE_CHECKING:
@@ -50,10 +52,10 @@ class GpuScope:
             raise GpuError(f"Buffer '{label}' needs {_mib(n_bytes)}, the device allows {_mib(limit)} "
                            "(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)")
         ctx = self.device.ctx
+        size = max(n_bytes, 16)  # a storage block without a byte cannot be bound
+        made = self._make(label, n_bytes, lambda: ctx.buffer(reserve=size), ("buffer", size))
         if isinstance(data, np.ndarray) and n_bytes:
-            made = self._make(label, n_bytes, lambda: ctx.buffer(np.ascontiguousarray(data).view("u1")))
-        else:  # a storage block without a byte cannot be bound
-            made = self._make(label, n_bytes, lambda: ctx.buffer(reserve=max(n_bytes, 16)))
+            made.write(np.ascontiguousarray(data).view("u1"))
         if clear:
             clear_buffer(self.device.calls, made.glo)
         return made
@@ -62,9 +64,11 @@ class GpuScope:
                 data: np.ndarray | None = None) -> moderngl.Texture:
         """A 2D texture, nearest filter, clamped. dtype as in moderngl: f1 f2 f4 u1 u4 i4 ..."""
         self._check_size(label, size)
-        raw = None if data is None else np.ascontiguousarray(data).tobytes()
         made = self._make(label, size[0] * size[1] * components * _BYTES[dtype],
-                          lambda: self.device.ctx.texture(size, components, raw, dtype=dtype, alignment=1))
+                          lambda: self.device.ctx.texture(size, components, dtype=dtype, alignment=1),
+                          ("texture", size, components, dtype))
+        if data is not None:
+            made.write(np.ascontiguousarray(data).tobytes(), alignment=1)
         made.filter = moderngl.NEAREST, moderngl.NEAREST
         made.repeat_x = made.repeat_y = False
         return made
@@ -73,7 +77,8 @@ class GpuScope:
         """n pictures of `size` pixels RGBA f4, zeros, bound as one image or sampled, between texels if `is_smooth`."""
         self._check_size(label, size)
         n_bytes = size[0] * size[1] * n * 16
-        made = self._make(label, n_bytes, lambda: self.device.ctx.texture_array((*size, n), 4, dtype="f4"))
+        made = self._make(label, n_bytes, lambda: self.device.ctx.texture_array((*size, n), 4, dtype="f4"),
+                          ("layers", size, n))
         made.filter = (moderngl.LINEAR if is_smooth else moderngl.NEAREST,) * 2
         made.repeat_x = made.repeat_y = False
         if not clear_texture(self.device.calls, made.glo):
@@ -112,15 +117,30 @@ class GpuScope:
             raise GpuError(f"Texture '{label}' needs {size[0]}x{size[1]} pixels, the device allows {largest} a side "
                            "(GL_MAX_TEXTURE_SIZE)")
 
-    def _make(self, label: str, n_bytes: int, create: Any) -> Any:
+    def _make(self, label: str, n_bytes: int, create: Callable[[], Any], key: Any = None) -> Any:
+        """An object that goes back to the pool under `key` when the scope closes, or is released if there is no key."""
+        pool = self.device.pool
+        made = pool.take(key) if key else None
         try:
-            made = create()
+            made = made or _made(create, pool)
         except (moderngl.Error, MemoryError) as error:
             raise GpuError(f"The device could not make '{label}' of {_mib(n_bytes)}: {error}") from error
-        self._stack.callback(made.release)
+        if key:
+            self._stack.callback(pool.give, key, n_bytes, made)
+        else:
+            self._stack.callback(made.release)
         self.n_bytes += n_bytes
         self.n_objects += 1
         return made
+
+
+def _made(create: Callable[[], Any], pool: Pool) -> Any:
+    """What `create` makes; if there is no memory left, once more without what the pool holds."""
+    try:
+        return create()
+    except (moderngl.Error, MemoryError):
+        pool.clear()
+        return create()
 
 
 def _mib(n_bytes: int) -> str:

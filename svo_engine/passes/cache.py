@@ -24,7 +24,7 @@ PARTS = 5  # vec4 a side, see bind/cache.glsl
 
 LINK = Pass(("cache/link.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS, "Links"),
             textures=("u_env", *TRACE, *LIGHT_TEXTURES),
-            uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS))
+            uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS, "u_first_ray", "u_end_ray"))
 DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS),
               textures=("u_env", *TRACE, *LIGHT_TEXTURES),
               uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS))
@@ -32,6 +32,7 @@ BOUNCE = Pass(("cache/bounce.comp.glsl",), (*CACHE, "Links", "Changes"),
               uniforms=(*CACHE_UNIFORMS, "u_sweep", "u_tolerance"))
 
 TOLERANCE = 5e-3  # of the brightest radiance: bounces end when none changes more
+ROUND = 64  # rays of one invocation: Mesa's software renderer ends its loops after 65,535 turns in all
 BATCH = 16  # sweeps between two looks at whether any more are needed: those that are not end at once
 
 
@@ -68,7 +69,9 @@ def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, l
     with device.scope() as scratch:
         links = scratch.buffer("cache links", 4 * n_rays * n_sides)
         has_emission = {"HAS_EMISSION": gpu_scene.emission_unit > 0}
-        device.dispatch(LINK, n_sides, {**constants, **has_emission}, **resources, Links=links)
+        for first in range(0, n_rays, ROUND):
+            device.dispatch(LINK, n_sides, {**constants, **has_emission}, **resources, Links=links, u_first_ray=first,
+                            u_end_ray=min(first + ROUND, n_rays))
         device.dispatch(DIRECT, n_sides, constants, **resources)
         for sweep in range(max_bounces):
             if sweep and sweep % BATCH == 0 and _n_done(changes, sweep) < sweep:

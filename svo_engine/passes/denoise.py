@@ -72,7 +72,8 @@ def read_picture(device: Device, film: GpuFilm, pictures: Pictures, is_filtered:
         device.dispatch(COMPOSE, n, _constants(film, light), **common, u_light=filtered, u_picture=pictures.picture)
     with device.profiler.host("read back"):
         width, height = film.size
-        pixels = np.frombuffer(pictures.picture.read(alignment=1), "f4").reshape(height, width, 4)
+        pixels = np.empty((height, width, 4), "f4")
+        pictures.picture.read_into(pixels, alignment=1)
     return Film({"Combined": pixels, **{name: read_pass(device, film, name, pictures.spare) for name in passes}},
                 film.n_samples)
 
