@@ -10,6 +10,7 @@ const int N_LIGHTS = 0;         // lamps that are drawn each by itself: they com
 const bool HAS_TREE = false;    // of the others
 const int N_TREE_DRAWS = 1;
 const float SHADOW_END = 0.9999;  // of the way: the light may touch a surface
+const float BEFORE = 2e-6;        // of the scene: a lamp that is a surface must not hide itself, as wrong as its place may be
 
 layout(std430) readonly buffer Lights { Light lights[]; };
 
@@ -69,13 +70,25 @@ LightDraw draw_other(int k, Surface s, uint sample_index, uint seed)
     return HAS_WORLD_DRAWS ? draw_sky(sobol_point(sample_index, hash(seed + 12u))) : NO_DRAW;
 }
 
-// The draw with its shadow, as seen from a surface that faces the eye or ray which sees it. The ray starts on the curved
-// surface that the triangle stands for, so that smooth shading ends smoothly [Hanika21].
+// Whether anything hides the light of a draw. The ray starts on the curved surface that the triangle stands for, so that
+// smooth shading ends smoothly [Hanika21], off that surface, and so it points a little elsewhere than wi.
+bool is_hidden(LightDraw draw, Surface s, uint seed)
+{
+    vec3 o = offset_origin(s.position + s.lift, s.normal_geometric, s.normal_geometric), d = draw.wi;
+    float t_max = INFINITE;
+    if (draw.distance < INFINITE) {
+        vec3 to_light = s.position + draw.wi * draw.distance - o;
+        float distance = length(to_light);
+        d = to_light / max(distance, 1e-20);
+        t_max = distance * SHADOW_END - BEFORE * u_bvh_extent;
+    }
+    return trace_any(o, d, t_max, seed);
+}
+
+// The draw with its shadow, as seen from a surface that faces the eye or ray which sees it.
 LightDraw shadowed(LightDraw draw, Surface s, bool casts_shadow, uint seed)
 {
-    vec3 o = offset_origin(s.position + s.lift, s.normal_geometric, s.normal_geometric);
-    if (draw.E_perp == vec3(0.0) || dot(s.normal, draw.wi) <= 0.0
-        || (casts_shadow && trace_any(o, draw.wi, draw.distance * SHADOW_END, seed)))
+    if (draw.E_perp == vec3(0.0) || dot(s.normal, draw.wi) <= 0.0 || (casts_shadow && is_hidden(draw, s, seed)))
         draw.E_perp = vec3(0.0);
     return draw;
 }
