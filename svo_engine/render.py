@@ -45,7 +45,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
         with device.profiler.host("upload"):
             gpu_scene = stage("upload", upload, scene, stage("albedo", albedo, is_specular(scene)))
         film = make_film(scope, view, planes_for(gpu_scene, settings), gpu_scene.centre_ws,
-                         make_progress(scope, view.size, settings))
+                         make_progress(scope, view.size, settings), is_black=settings.view != "combined")
         targets = stage("targets", make_targets, view.size)
         incident = stage("incident", make_incident, view.size, gpu_scene.has_specular, "DIFFUSE_FOUND" in film.planes)
         gather, show = None, None

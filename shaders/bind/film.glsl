@@ -3,6 +3,7 @@
 
 #include "lib/math.glsl"
 
+const int N_PLANES = 1;
 const int PLANE_COMBINED = 0;             // premultiplied RGBA
 const int PLANE_DIFFUSE_DIRECT = -1;      // rho / pi E, in alpha the square of E's luminance
 const int PLANE_DIFFUSE_INDIRECT = -1;

@@ -5,7 +5,7 @@
 //             weight of what cache/direct draws as well [Veach95]
 // In:         Surfels, world, triangles, lights
 // Out:        Links: the side that each ray hits, or NOTHING; Cache: STILL
-// Invocation: one side of one surfel
+// Invocation: one in SPLIT rays of one side of one surfel
 
 #include "bind/lights.glsl"
 #include "cache/side.glsl"
@@ -13,6 +13,7 @@
 const int N_RAYS = 16;            // of each side, in all rounds
 const int N_POINTS = 4;           // of cache/direct
 const bool HAS_EMISSION = false;  // any material that sends out light
+const uint SPLIT = 4u;            // invocations a side: few sides keep a large device busy too
 
 layout(std430) writeonly buffer Links { uint links[]; };  // N_RAYS a side: the first of all sides, the second of all ...
 
@@ -42,22 +43,34 @@ vec3 still_light(Surface s, vec3 d, bool is_hit, Hit hit, float pdf)
     return L == vec3(0.0) ? L : L * emitter_weight(s, d, hit, pdf);
 }
 
-void main()
+shared vec3 found[GROUP];
+
+// Follow every SPLIT-th ray of a side and return the irradiance that no bounce changes.
+vec3 follow(uint side, uint part)
 {
-    uint side = u_first + gl_GlobalInvocationID.x;
-    if (side >= u_end)
-        return;
     Surface s = surface_of_side(side);
     vec3 E = vec3(0.0);
     mat3 frame = frame_of(s.normal);
-    for (uint k = u_first_ray; k < u_end_ray; k++) {
+    for (uint k = u_first_ray + part; k < u_end_ray; k += SPLIT) {
         vec3 local = cosine_direction(sobol_point(k, hash(side))), d = frame * local;
         Hit hit;
         bool is_hit = trace_closest(s.position, d, INFINITE, hash(side) + k, hit);
         links[k * u_n_sides + side] = is_hit ? side_hit(s.position, d, hit) : NOTHING;
         E += PI / float(N_RAYS) * still_light(s, d, is_hit, hit, float(N_RAYS) / float(N_POINTS) * local.z / PI);
     }
-    if (u_first_ray > 0u)
-        E += cache[cache_entry(STILL, side)].rgb;
+    return E;
+}
+
+void main()
+{
+    uint index = u_first + gl_GlobalInvocationID.x, lane = gl_LocalInvocationIndex;
+    uint side = index / SPLIT, part = index % SPLIT;
+    found[lane] = index < u_end ? follow(side, part) : vec3(0.0);
+    barrier();
+    if (index >= u_end || part != 0u)
+        return;
+    vec3 E = u_first_ray > 0u ? cache[cache_entry(STILL, side)].rgb : vec3(0.0);
+    for (uint i = 0u; i < SPLIT; i++)
+        E += found[lane + i];
     cache[cache_entry(STILL, side)] = vec4(E, 0.0);
 }

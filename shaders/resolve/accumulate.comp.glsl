@@ -101,6 +101,8 @@ void main()
     ivec2 pixel = tiled_pixel(index, u_size);
     if (index >= u_end || any(greaterThanEqual(pixel, u_size)) || is_done(pixel))
         return;
+    for (int plane = 0; plane < N_PLANES && u_sample == 0u; plane++)
+        imageStore(u_film, ivec3(pixel, plane), vec4(0.0));
     Seen seen = seen_at(pixel, HAS_TEXTURES);
     if (!seen.hit) {
         vec3 world = world_radiance(-seen.wo, 0.0);

@@ -32,7 +32,8 @@ BOUNCE = Pass(("cache/bounce.comp.glsl",), (*CACHE, "Links", "Changes"),
               uniforms=(*CACHE_UNIFORMS, "u_sweep", "u_tolerance"))
 
 TOLERANCE = 5e-3  # of the brightest radiance: bounces end when none changes more
-ROUND = 64  # rays of one invocation: Mesa's software renderer ends its loops after 65,535 turns in all
+SPLIT = 4  # invocations that share the rays of a side
+ROUND = 256  # rays of a side at once: Mesa's software renderer ends an invocation's loops after 65,535 turns in all
 BATCH = 16  # sweeps between two looks at whether any more are needed: those that are not end at once
 
 
@@ -70,8 +71,8 @@ def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, l
         links = scratch.buffer("cache links", 4 * n_rays * n_sides)
         has_emission = {"HAS_EMISSION": gpu_scene.emission_unit > 0}
         for first in range(0, n_rays, ROUND):
-            device.dispatch(LINK, n_sides, {**constants, **has_emission}, **resources, Links=links, u_first_ray=first,
-                            u_end_ray=min(first + ROUND, n_rays))
+            device.dispatch(LINK, SPLIT * n_sides, {**constants, **has_emission, "SPLIT": SPLIT}, **resources,
+                            Links=links, u_first_ray=first, u_end_ray=min(first + ROUND, n_rays))
         device.dispatch(DIRECT, n_sides, constants, **resources)
         for sweep in range(max_bounces):
             if sweep and sweep % BATCH == 0 and _n_done(changes, sweep) < sweep:

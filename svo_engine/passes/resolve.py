@@ -63,7 +63,8 @@ class GpuFilm:
 
     def constants(self) -> dict[str, int]:
         """The constants of bind/film.glsl and bind/tiles.glsl."""
-        return {**{f"PLANE_{plane}": self.layer(plane) for plane in PLANES}, "IS_ADAPTIVE": self.progress is not None}
+        return {**{f"PLANE_{plane}": self.layer(plane) for plane in PLANES}, "N_PLANES": len(self.planes),
+                "IS_ADAPTIVE": self.progress is not None}
 
     @property
     def tiles(self) -> Any:
@@ -72,9 +73,10 @@ class GpuFilm:
 
 
 def make_film(scope: GpuScope, view: View, planes: tuple[str, ...], centre: np.ndarray,
-              progress: Progress | None = None) -> GpuFilm:
-    """An empty film in `scope` for what `view` sees."""
-    return GpuFilm(view, planes, scope.layers("film", view.size, len(planes)), centre, progress)
+              progress: Progress | None = None, is_black: bool = True) -> GpuFilm:
+    """A film in `scope` for what `view` sees; it need not be black where `resolve` sets it with the first sample."""
+    sums = scope.layers("film", view.size, len(planes), is_black=is_black)
+    return GpuFilm(view, planes, sums, centre, progress)
 
 
 def resolve(device: Device, gpu_scene: GpuScene, gbuffer: GBuffer, incident: Incident, film: GpuFilm) -> None:
