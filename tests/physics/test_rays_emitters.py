@@ -84,8 +84,8 @@ def seen_in_metal(session, thing, roughness, samples, **more) -> np.ndarray:
 
 @pytest.mark.parametrize("roughness", [0.1, 0.3, 0.6, 1.0])
 def test_draws_and_rays_agree_on_what_metal_reflects(session, monkeypatch, roughness):
-    """A panel weighed by the balance heuristic, and found by rays alone with 16 times the samples."""
-    both = seen_in_metal(session, [panel()], roughness, 64)
+    """A panel weighed by the balance heuristic, and found by rays alone with four times the samples."""
+    both = seen_in_metal(session, [panel()], roughness, 256)
     monkeypatch.setattr(emitters, "MOST", 0)
     session._opened()[1]._results.clear()
     alone = seen_in_metal(session, [panel(n=2)], roughness, 1024)
