@@ -78,7 +78,7 @@ def test_emission_counts_as_direct_light_of_what_it_shines_on(session):
     board = scenes.quad("Board", (-0.5, -0.5, 1), (0, 1, 0), (1, 0, 0))
     camera = above(2.0, z=0.9)
     scene = scenes.scene(scenes.Thing(scenes.floor(4)), scenes.Thing(board, glow(3.0)), camera=camera)
-    planes = film_of(session, scene, **{**RAYS, "gather_rays": 64}, samples=16, passes=ALL).planes
+    planes = film_of(session, scene, **{**RAYS, "gather_rays": 16}, samples=64, passes=ALL).planes
     share = rectangle_share(floor_points(camera), (-0.5, -0.5), (0.5, 0.5), 1.0)
     assert np.sqrt(((planes["Diffuse Direct"][..., 0] / (3 * share) - 1) ** 2).mean()) < 0.1  # 1024 rays, noisy
     assert planes["Diffuse Direct"].mean() == pytest.approx(3 * share.mean(), rel=0.01)
