@@ -126,7 +126,7 @@ def test_both_halves_lie_in_all_parts_of_the_square():
 
 @pytest.mark.parametrize("n", [EVERY - 1, EVERY + 1, 2 * EVERY - 1, 128 + EVERY, 1024 + 64])
 def test_nobody_looks_in_between(device, n):
-    """Neither before the least number of samples, nor where the halves are no halves, nor too often: each look waits."""
+    """Neither before the least number of samples, nor where halves are no halves, nor too often: each look waits."""
     with device.scope() as scope:
         done, tiles = Painted(device, scope, grey(np.ones(SIZE[::-1])), grey(np.ones(SIZE[::-1])), n).look()
     assert not done

@@ -270,7 +270,7 @@ def test_light_that_is_negative_already_stays_so(device):
 def test_a_whole_frame_is_quieter_and_as_bright(session):
     """Indirect light of one ray a pixel in a room; the sky beside it stays as it is to the bit.
 
-    Rays that stand out by more than the filter takes for noise do not reach their neighbours: of so few, 2 % of the light.
+    Rays that stand out by more than the filter takes for noise do not reach their neighbours: 2 % of the light here.
     """
     scene = scenes.cornell(world=World((0.25, 0.5, 1.0)))
     settings = {**RAYS, "gather_rays": 1}
