@@ -48,7 +48,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
                          make_progress(scope, view.size, settings), is_black=settings.view != "combined")
         targets = stage("targets", make_targets, view.size)
         incident = stage("incident", make_incident, view.size, gpu_scene.has_specular, "DIFFUSE_FOUND" in film.planes)
-        gather, show = None, None
+        gather, show, bvh = None, None, None
         if settings.view.startswith("cache"):
             show = _cache_view(stage, device, gpu_scene, settings, film)
         elif settings.view != "combined":
@@ -56,9 +56,10 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
         elif settings.method == "cones":
             gather = _cones(stage, device, gpu_scene, view, settings)
         else:
-            gather = _rays(stage, device, gpu_scene, settings, film)
+            bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
+            gather = _rays(stage, device, gpu_scene, bvh, settings, film)
         for sample in range(settings.samples):
-            gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample, film.tiles)
+            gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample, film.tiles, bvh)
             if gather:
                 gather(gbuffer, incident, sample)
                 resolve(device, gpu_scene, gbuffer, incident, film)
@@ -81,9 +82,9 @@ def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settin
                                                           sample)
 
 
-def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings, film: GpuFilm) -> Gather:
+def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, bvh: Bvh, settings: RenderSettings,
+          film: GpuFilm) -> Gather:
     """Light on the surfaces in an octree, gathered by rays with exact hits."""
-    bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
     lights = stage("lights", make_lights, gpu_scene)
     cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, lights, settings, film.limits)
     octree = cache.octree

@@ -44,18 +44,20 @@ LIGHTS = (Light("DIFFUSE_DIRECT", "DIFFUSE_COLOR", pi), Light("DIFFUSE_INDIRECT"
 
 @dataclass(frozen=True, eq=False)
 class Pictures:
-    """Working textures f4: the picture, and two to filter from and into."""
+    """Working textures f4: the picture, and two to filter from and into. staging: a buffer on the way to the host."""
 
     scope: GpuScope
     picture: Any
     light: Any
     spare: Any
+    staging: Any
 
 
 def make_pictures(device: Device, size: tuple[int, int]) -> Pictures:
     """Textures for pictures of `size` pixels."""
     scope = device.scope()
-    return Pictures(scope, *(scope.texture(name, size, 4, "f4") for name in ("picture", "light", "spare")))
+    return Pictures(scope, *(scope.texture(name, size, 4, "f4") for name in ("picture", "light", "spare")),
+                    scope.staging("staging", 16 * size[0] * size[1]))
 
 
 def read_picture(device: Device, film: GpuFilm, pictures: Pictures, is_filtered: bool,
@@ -73,7 +75,8 @@ def read_picture(device: Device, film: GpuFilm, pictures: Pictures, is_filtered:
     with device.profiler.host("read back"):
         width, height = film.size
         pixels = np.empty((height, width, 4), "f4")
-        pictures.picture.read_into(pixels, alignment=1)
+        pictures.picture.read_into(pictures.staging)
+        pictures.staging.read_into(pixels)
     return Film({"Combined": pixels, **{name: read_pass(device, film, name, pictures.spare) for name in passes}},
                 film.n_samples)
 

@@ -3,13 +3,19 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from svo_engine.passes import raster as raster_module
+from svo_engine.passes.bvh import build_bvh, build_meshes
+from svo_engine.passes.raster import make_targets, raster
+from svo_engine.passes.upload import upload
 from svo_engine.scene.camera import make_view
 from svo_engine.scene.types import Camera, Image, Material, Texture
+from svo_engine.settings import RenderSettings
 from tests import scenes
 from tests.on_gpu import picture_of
 
@@ -143,3 +149,30 @@ def test_every_sample_moves_the_pixels_by_less_than_the_filter(session):
     assert np.all(np.diff(wide) >= 0)
     assert 2 <= ((wide > 0) & (wide < 1)).sum() <= 4
     assert wide.sum() == pytest.approx(16, abs=0.1)
+
+
+@pytest.mark.parametrize("camera", [CAMERA, replace(CAMERA, is_orthographic=True, ortho_scale=4.0),
+                                    replace(CAMERA, clip_start=4.5, clip_end=5.6)],
+                         ids=["perspective", "orthographic", "clipped"])
+def test_rays_see_what_the_rasteriser_sees(device, monkeypatch, camera):
+    """Triangle and place; but for pixels whose centres lie on an edge, which either may give to a neighbour."""
+    scene = scenes.cornell()
+    view = make_view(camera)
+    monkeypatch.setattr(raster_module, "can_trace", lambda *_: True)
+    with ExitStack() as made:
+
+        def keep(result):
+            made.callback(result.scope.close)
+            return result
+
+        gpu_scene, targets = keep(upload(device, scene)), keep(make_targets(device, view.size))
+        bvh = keep(build_bvh(device, gpu_scene, keep(build_meshes(device, scene.meshes))))
+        seen = []
+        for trees in (None, bvh):
+            raster(device, gpu_scene, view, targets, RenderSettings(), 3, bvh=trees)
+            seen.append(np.frombuffer(targets.visibility.read(), "u4").reshape(-1, 4))
+    same = (seen[0][:, :2] == seen[1][:, :2]).all(1)
+    assert same.mean() > 0.99
+    assert 0.1 < (seen[0][:, 0] > 0).mean()
+    bary = [part[same & (seen[0][:, 0] > 0), 2:].copy().view("f4") for part in seen]
+    assert np.allclose(*bary, atol=1e-3)  # the rasteriser interpolates from corners snapped to 1/256 pixel
