@@ -26,7 +26,7 @@ COMPOSE = Pass(("denoise/compose.comp.glsl",), textures=("u_film", "u_tiles", "u
                uniforms=("u_size", "u_n_samples"))
 
 STEPS = (1, 2, 4, 8)  # pixels between the taps of each pass
-SIGMAS = 6.0  # with one sample, differences of so many standard deviations are noise; with n, 1 / sqrt(n) of that
+SIGMAS = 8.0  # with one sample, differences of so many standard deviations are noise; with n, 1 / sqrt(n) of that
 
 
 @dataclass(frozen=True)
