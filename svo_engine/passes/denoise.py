@@ -56,8 +56,8 @@ class Pictures:
 def make_pictures(device: Device, size: tuple[int, int]) -> Pictures:
     """Textures for pictures of `size` pixels."""
     scope = device.scope()
-    return Pictures(scope, *(scope.texture(name, size, 4, "f4") for name in ("picture", "light", "spare")),
-                    scope.staging("staging", 16 * size[0] * size[1]))
+    picture, light, spare = (scope.texture(name, size, 4, "f4") for name in ("picture", "light", "spare"))
+    return Pictures(scope, picture, light, spare, scope.staging("staging", 16 * size[0] * size[1]))
 
 
 def read_picture(device: Device, film: GpuFilm, pictures: Pictures, is_filtered: bool,

@@ -35,7 +35,7 @@ def scene(empty, extension, tmp_path):
     camera = build.place(bpy.data.cameras.new("Camera"), "Camera", (0.3, -7, 3.2), (1.25, 0, 0))
     empty.camera = camera
     render = empty.render
-    render.resolution_x, render.resolution_y, render.resolution_percentage = *SIZE, 100
+    (render.resolution_x, render.resolution_y), render.resolution_percentage = SIZE, 100
     render.use_compositing = False
     if "media_type" in render.image_settings.bl_rna.properties:
         render.image_settings.media_type = "MULTI_LAYER_IMAGE"
@@ -139,7 +139,7 @@ def test_a_layer_that_asks_for_nothing_has_the_picture_alone(empty, extension):
 
 def test_names_and_channels_are_registered_as_cycles_does(scene):
     """Of every pass that both know, so that the compositor's sockets are the same."""
-    from cycles import engine
+    from cycles import engine  # type: ignore[import-not-found]
 
     layer = scene.view_layers[0]
     layer.cycles.denoising_store_passes = True

@@ -82,5 +82,5 @@ def test_without_memory_the_idle_go_first(device, monkeypatch):
     with device.scope() as scope:
         assert scope.buffer("wanted", 6543).size == 6543
         monkeypatch.setattr(Context, "buffer", staticmethod(lambda **_: (_ for _ in ()).throw(MemoryError("none"))))
-        with pytest.raises(GpuError, match="'more' of 0.0 MiB: none"):
+        with pytest.raises(GpuError, match=r"'more' of 0\.0 MiB: none"):
             scope.buffer("more", 4321)

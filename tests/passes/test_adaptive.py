@@ -118,7 +118,7 @@ def test_both_halves_lie_in_all_parts_of_the_square():
     """Of the van der Corput sequence, in which every second point lies in one half; as resolve/accumulate has it."""
     numbers = np.arange(64)
     points = sum((numbers >> bit & 1) / 2 ** (bit + 1) for bit in range(6))
-    is_of_half = np.array([bin(n & 0xAAAAAAAA).count("1") % 2 == 1 for n in numbers])
+    is_of_half = np.array([(n & 0xAAAAAAAA).bit_count() % 2 == 1 for n in numbers])
     for n in range(EVERY, 65, EVERY):
         assert is_of_half[:n].sum() == n / 2
         assert abs(points[:n][is_of_half[:n]].mean() - 0.5) < 1 / n**0.5 / 2

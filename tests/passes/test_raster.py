@@ -173,6 +173,6 @@ def test_rays_see_what_the_rasteriser_sees(device, monkeypatch, camera):
             seen.append(np.frombuffer(targets.visibility.read(), "u4").reshape(-1, 4))
     same = (seen[0][:, :2] == seen[1][:, :2]).all(1)
     assert same.mean() > 0.99
-    assert 0.1 < (seen[0][:, 0] > 0).mean()
+    assert (seen[0][:, 0] > 0).mean() > 0.1
     bary = [part[same & (seen[0][:, 0] > 0), 2:].copy().view("f4") for part in seen]
     assert np.allclose(*bary, atol=1e-3)  # the rasteriser interpolates from corners snapped to 1/256 pixel

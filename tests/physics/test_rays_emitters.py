@@ -31,7 +31,8 @@ def floor_light(session, *things, samples=16, **more) -> np.ndarray:
 def panel(z=0.6, radiance=2.0, n=1, material=None, faces_down=True) -> scenes.Thing:
     """A level rectangle that glows."""
     u, v = (HIGH[0] - LOW[0], 0, 0), (0, HIGH[1] - LOW[1], 0)
-    mesh = scenes.quad("Panel", (*LOW, z), *((v, u) if faces_down else (u, v)), n, uvs=material is not None)
+    first, second = (v, u) if faces_down else (u, v)
+    mesh = scenes.quad("Panel", (*LOW, z), first, second, n, uvs=material is not None)
     return scenes.Thing(mesh, material or glow(radiance))
 
 
