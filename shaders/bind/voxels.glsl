@@ -14,14 +14,6 @@ uvec2 occupancy_address(ivec3 v)
     return uvec2(uint(((block.z * n_blocks + block.y) * n_blocks + block.x) * 2 + (bit >> 5)), uint(bit & 31));
 }
 
-// The voxel of bit `bit` of word `word`.
-ivec3 occupancy_voxel(uint word, uint bit)
-{
-    int n_blocks = u_grid_n >> 2, block = int(word >> 1u), cell = int((word & 1u) * 32u + bit);
-    return ivec3(block % n_blocks, block / n_blocks % n_blocks, block / (n_blocks * n_blocks)) * 4
-         + ivec3(cell & 3, cell >> 2 & 3, cell >> 4);
-}
-
 bool is_occupied(ivec3 v)
 {
     uvec2 address = occupancy_address(v);

@@ -47,9 +47,3 @@ vec3 reflected(Met met, uint seed)
 {
     return mean_albedo(materials[met.surface.material], met.shading) / PI * arriving(met, number, seed);
 }
-
-// All light that leaves a met surface against a diffuse ray.
-vec3 leaving(Met met, uint seed)
-{
-    return met.shading.emission + reflected(met, seed);
-}

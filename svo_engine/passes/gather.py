@@ -59,7 +59,7 @@ def make_incident(device: Device, size: tuple[int, int], has_specular: bool, is_
 
 
 def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: GBuffer, incident: Incident,
-           settings: RenderSettings, sample: int) -> None:
+                 settings: RenderSettings, sample: int) -> None:
     """Fill `incident` for one sample by cone tracing."""
     grid = lit.voxels.grid
     constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "HAS_TEXTURES": gpu_scene.has_textures,
@@ -68,8 +68,7 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, gbuffer: G
     device.dispatch(
         CONES, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(),
         **gbuffer.uniforms(), **grid.uniforms(), u_tiles=gbuffer.tiles, u_incident=incident.layers,
-        Lights=gpu_scene.lights,
-        u_albedo=gpu_scene.albedo, u_radiance=lit.radiance, u_cone_offset=settings.cone_offset,
+        Lights=gpu_scene.lights, u_albedo=gpu_scene.albedo, u_radiance=lit.radiance, u_cone_offset=settings.cone_offset,
         u_cone_step=settings.cone_step, u_cone_distance=settings.cone_distance * grid.n, u_sample=sample,
         u_seed=settings.seed, u_ring_angle=settings.cone_ring_angle,
         u_tan_half_aperture=tan(settings.cone_aperture / 2), u_tan_half_shadow=tan(settings.shadow_aperture / 2),

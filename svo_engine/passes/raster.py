@@ -21,8 +21,6 @@ from .voxelize import GEOMETRY, MATERIALS
 
 VISIBILITY = Pass(("raster/visibility.vert.glsl", "raster/visibility.frag.glsl"), (*GEOMETRY, *MATERIALS),
                   uniforms=("u_clip_from_world", "u_first_instance", "u_first_triangle", "u_sample", "u_seed"))
-
-
 CAMERA = Pass(("raster/camera.comp.glsl",), (*GEOMETRY, *MATERIALS), textures=("u_tiles", *TRACE), images=("u_seen",),
               uniforms=("u_ray_origin", "u_ray_direction", "u_size", "u_depth", *TRACE_UNIFORMS))
 
