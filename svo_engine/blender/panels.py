@@ -15,6 +15,7 @@ from .engine import SVORenderEngine
 ENGINE = SVORenderEngine.bl_idname
 _OURS = {ENGINE}
 _CLOSED = {"DEFAULT_CLOSED"}
+_OF_LIT_VOXELS = {"injection_ambient", "injection_specular", "injection_shininess"}
 
 
 class _RenderPanel:
@@ -37,16 +38,30 @@ class _RenderPanel:
         return self.layout.column()
 
 
+def _has_voxels(svo: Any) -> bool:
+    """Whether there are filtered voxels at all: for cones, or to be looked at."""
+    return svo.method == "cones" or svo.view.startswith("voxel")
+
+
+def _has_effect(svo: Any, name: str) -> bool:
+    """Whether the setting does anything beside the others; if not, it is greyed out."""
+    if name == "view_lod":
+        return svo.view.startswith("voxel")
+    return name not in _OF_LIT_VOXELS or _has_voxels(svo)
+
+
 class _GroupPanel(_RenderPanel):
     """All settings of one group of `settings.py`."""
 
     group: str
 
     def draw(self, context: bpy.types.Context) -> None:
-        column = self.column()
+        column, svo = self.column(), context.scene.svo
         for name, spec in specs().items():
             if spec.group == self.group:
-                column.prop(context.scene.svo, name)
+                part = column.column()
+                part.active = _has_effect(svo, name)
+                part.prop(svo, name)
 
 
 class SVO_PT_sampling(_RenderPanel, bpy.types.Panel):
@@ -124,8 +139,7 @@ class SVO_PT_voxel_grid(_GroupPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        svo = context.scene.svo
-        return super().poll(context) and (svo.method == "cones" or svo.view.startswith("voxel"))
+        return super().poll(context) and _has_voxels(context.scene.svo)
 
 
 class SVO_PT_cones(_GroupPanel, bpy.types.Panel):

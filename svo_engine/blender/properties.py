@@ -18,6 +18,9 @@ _UNIT_OPTIONS: dict[str, dict[str, str]] = {
     "s": {"unit": "TIME_ABSOLUTE"},
 }
 
+# With Blender's two digits 0.005 and 0.01 would look the same
+_DIGITS = {"noise_threshold": 4, "viewport_noise_threshold": 4}
+
 
 def defaults() -> dict[str, Any]:
     """Every setting's default by its name."""
@@ -49,8 +52,9 @@ def _as_typed(value: Any, default: Any) -> Any:
     return default if np.float32(value) == np.float32(default) else float(str(np.float32(value)))
 
 
-def _property(spec: Spec, default: Any) -> Any:
+def _property(name: str, spec: Spec) -> Any:
     """The bpy property for one setting: its kind from the default, all else from the Spec."""
+    default = defaults()[name]
     options: dict[str, Any] = {"name": spec.label, "description": spec.description, "default": default}
     if spec.choices:
         return bpy.props.EnumProperty(items=spec.choices, **options)
@@ -60,7 +64,8 @@ def _property(spec: Spec, default: Any) -> Any:
         return bpy.props.IntProperty(**options, **_limits(spec, int))
     if spec.unit and spec.unit not in _UNIT_OPTIONS:
         options["description"] += f" ({spec.unit})"
-    return bpy.props.FloatProperty(**options, **_limits(spec, float), **_UNIT_OPTIONS.get(spec.unit, {}))
+    options.update(_UNIT_OPTIONS.get(spec.unit, {}), precision=_DIGITS.get(name, 2))
+    return bpy.props.FloatProperty(**options, **_limits(spec, float))
 
 
 def _limits(spec: Spec, kind: type) -> dict[str, Any]:
@@ -72,4 +77,4 @@ def _limits(spec: Spec, kind: type) -> dict[str, Any]:
 class SVOSceneSettings(bpy.types.PropertyGroup):
     """Settings of the SVO render engine."""
 
-    __annotations__ = {name: _property(spec, defaults()[name]) for name, spec in specs().items()}
+    __annotations__ = {name: _property(name, spec) for name, spec in specs().items()}

@@ -22,13 +22,15 @@ def scene(empty, extension):
 
 
 class Layout:
-    """Notes which properties and operators a panel shows."""
+    """Notes which properties and operators a panel shows, and which of them it greys out."""
 
     def __init__(self):
-        self.shown = []
+        self.shown, self.grey, self.active = [], set(), True
 
     def prop(self, _owner, name, **_options):
         self.shown.append(name)
+        if not self.active:
+            self.grey.add(name)
 
     def operator(self, name, **_options):
         self.shown.append(name)
@@ -44,11 +46,16 @@ def context_of(scene, engine="SVO_ENGINE", kind_of_light="AREA"):
 
 def shown_by(panel, context):
     """What `panel` shows, header and all; nothing if its poll says so."""
+    return drawn_by(panel, context).shown
+
+
+def drawn_by(panel, context):
+    """The Layout after `panel` has drawn itself."""
     layout = Layout()
     if panel.poll(context):
         drawn = SimpleNamespace(layout=layout, column=lambda **_options: layout, group=getattr(panel, "group", ""))
         panel.draw(drawn, context)
-    return layout.shown
+    return layout
 
 
 @pytest.mark.parametrize("name", specs())
@@ -108,6 +115,25 @@ def test_only_the_settings_of_the_method_are_shown(scene):
     assert shown_by(panels.SVO_PT_voxel_grid, context_of(scene)) == ["resolution"]
     scene.svo.method = "cones"
     assert shown_by(panels.SVO_PT_rays, context_of(scene)) == []
+
+
+def test_what_has_no_effect_is_greyed_out(scene):
+    of_voxels = {"injection_ambient", "injection_specular", "injection_shininess"}
+
+    def grey():
+        return {name for panel in (panels.SVO_PT_light_injection, panels.SVO_PT_debug)
+                for name in drawn_by(panel, context_of(scene)).grey}
+
+    assert grey() == of_voxels | {"view_lod"}
+    scene.svo.view = "voxel_radiance"
+    assert grey() == set()
+    scene.svo.view, scene.svo.method = "combined", "cones"
+    assert grey() == {"view_lod"}
+
+
+@pytest.mark.parametrize("name", ["noise_threshold", "viewport_noise_threshold"])
+def test_noise_thresholds_have_the_digits_of_cycles(scene, name):
+    assert scene.svo.bl_rna.properties[name].precision == 4
 
 
 def test_film_panel_has_blenders_own_transparency(scene):
