@@ -14,20 +14,19 @@ from .gpu.device import Device
 from .gpu.kept import Kept
 from .gpu.thread import GpuThread
 from .passes.adaptive import is_done, make_progress
-from .passes.albedo import albedo
 from .passes.bvh import Bvh, build_bvh, build_meshes
 from .passes.cache import LightCache, light_cache
 from .passes.debug import make_attribute, show_surfels, show_voxels
 from .passes.denoise import make_pictures, read_picture
 from .passes.gather import Incident, gather_cones, gather_rays, make_incident
-from .passes.light import injection_of, light
+from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
-from .passes.octree import build_octree
+from .passes.octree import Octree, build_octree
 from .passes.planes import planes_for
 from .passes.raster import GBuffer, make_targets, raster
 from .passes.resolve import GpuFilm, make_film, resolve
-from .passes.upload import GpuScene, is_specular, upload
-from .passes.voxelize import voxelize
+from .passes.upload import GpuScene, assemble
+from .passes.voxelize import Voxels, voxelize
 from .scene.types import Scene, View
 from .settings import RenderSettings
 
@@ -43,7 +42,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     sums = device.profiler.reset()
     with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
-            gpu_scene = stage("upload", upload, scene, stage("albedo", albedo, is_specular(scene)))
+            gpu_scene = assemble(scope, scene, stage)
         film = make_film(scope, view, planes_for(gpu_scene, settings), gpu_scene.centre_ws,
                          make_progress(scope, view.size, settings), is_black=settings.view != "combined")
         targets = stage("targets", make_targets, view.size)
@@ -56,7 +55,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
         elif settings.method == "cones":
             gather = _cones(stage, device, gpu_scene, view, settings)
         else:
-            bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
+            bvh = _trees(stage, gpu_scene)
             gather = _rays(stage, device, gpu_scene, bvh, settings, film)
         for sample in range(settings.samples):
             gbuffer = film.gbuffer = raster(device, gpu_scene, view, targets, settings, sample, film.tiles, bvh)
@@ -73,10 +72,47 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
                 return
 
 
+# Stages by what they depend on, which is all that is compared: an edit redoes no more than it must
+
+
+def _trees(stage: Stage, gpu_scene: GpuScene) -> Bvh:
+    trees = stage("trees", build_meshes, gpu_scene.scene.meshes)
+    return stage("bvh", lambda device, *_: build_bvh(device, gpu_scene, trees), trees, gpu_scene.placing)
+
+
+def _lights(stage: Stage, gpu_scene: GpuScene) -> Lights:
+    return stage("lights", lambda device, *_: make_lights(device, gpu_scene), gpu_scene.placing, gpu_scene.surfaces,
+                 gpu_scene.lamps, gpu_scene.sky, gpu_scene.scene.world)
+
+
+def _octree(stage: Stage, gpu_scene: GpuScene, n: int) -> Octree:
+    return stage("octree", lambda device, *_: build_octree(device, gpu_scene, n), gpu_scene.placing,
+                 gpu_scene.surfaces, n)
+
+
+def _cache(stage: Stage, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights,
+           settings: RenderSettings) -> LightCache:
+    amounts = settings.cache_rays, settings.injection_samples, settings.bounces
+    return stage("cache", lambda device, *_: light_cache(device, gpu_scene, octree, bvh, lights, *amounts), octree, bvh,
+                 lights, gpu_scene.scene.world, amounts)
+
+
+def _voxels(stage: Stage, gpu_scene: GpuScene, settings: RenderSettings) -> Voxels:
+    n = int(settings.resolution)
+    return stage("voxelize", lambda device, *_: voxelize(device, gpu_scene, n), gpu_scene.placing,
+                 gpu_scene.surfaces, n)
+
+
+def _lit(stage: Stage, gpu_scene: GpuScene, voxels: Voxels, view: View, settings: RenderSettings) -> LitVoxels:
+    injection = injection_of(settings, gpu_scene, view)
+    return stage("light", lambda device, *_: light(device, gpu_scene, voxels, injection), voxels, gpu_scene.lamps,
+                 gpu_scene.surfaces, injection)
+
+
 def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settings: RenderSettings) -> Gather:
     """Light in filtered voxels, gathered by cones: the thesis's way."""
-    voxels = stage("voxelize", voxelize, gpu_scene, int(settings.resolution))
-    lit = stage("light", light, gpu_scene, voxels, injection_of(settings, gpu_scene, view))
+    voxels = _voxels(stage, gpu_scene, settings)
+    lit = _lit(stage, gpu_scene, voxels, view, settings)
     device.profiler.counts["voxels"] = voxels.n_voxels
     return lambda gbuffer, incident, sample: gather_cones(device, gpu_scene, lit, gbuffer, incident, settings,
                                                           sample)
@@ -85,7 +121,7 @@ def _cones(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settin
 def _rays(stage: Stage, device: Device, gpu_scene: GpuScene, bvh: Bvh, settings: RenderSettings,
           film: GpuFilm) -> Gather:
     """Light on the surfaces in an octree, gathered by rays with exact hits."""
-    lights = stage("lights", make_lights, gpu_scene)
+    lights = _lights(stage, gpu_scene)
     cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, lights, settings, film.limits)
     octree = cache.octree
     device.profiler.counts.update({"nodes": octree.n_nodes, "surfels": octree.n_surfels, **lights.counts(),
@@ -100,9 +136,7 @@ def _fitting_cache(stage: Stage, gpu_scene: GpuScene, bvh: Bvh, lights: Lights, 
     n = int(settings.cache_resolution)
     while True:
         try:
-            octree = stage("octree", build_octree, gpu_scene, n)
-            return stage("cache", light_cache, gpu_scene, octree, bvh, lights, settings.cache_rays,
-                         settings.injection_samples, settings.bounces)
+            return _cache(stage, gpu_scene, _octree(stage, gpu_scene, n), bvh, lights, settings)
         except GpuError as error:
             if n <= SMALLEST_CACHE:
                 raise
@@ -113,8 +147,7 @@ def _fitting_cache(stage: Stage, gpu_scene: GpuScene, bvh: Bvh, lights: Lights, 
 def _cache_view(stage: Stage, device: Device, gpu_scene: GpuScene, settings: RenderSettings,
                 film: GpuFilm) -> Callable[[GBuffer, GpuFilm], None]:
     """The surfels of the light cache, drawn as they are."""
-    bvh = stage("bvh", build_bvh, gpu_scene, stage("trees", build_meshes, gpu_scene.scene.meshes))
-    lights = stage("lights", make_lights, gpu_scene)
+    bvh, lights = _trees(stage, gpu_scene), _lights(stage, gpu_scene)
     cache = film.cache = _fitting_cache(stage, gpu_scene, bvh, lights, settings, film.limits)
     return lambda gbuffer, film: show_surfels(device, gpu_scene, cache, gbuffer, settings, film)
 
@@ -122,11 +155,11 @@ def _cache_view(stage: Stage, device: Device, gpu_scene: GpuScene, settings: Ren
 def _voxel_view(stage: Stage, device: Device, gpu_scene: GpuScene, view: View,
                 settings: RenderSettings) -> Callable[[GBuffer, GpuFilm], None]:
     """The voxels of the thesis's way, drawn as they are."""
-    voxels = stage("voxelize", voxelize, gpu_scene, int(settings.resolution))
+    voxels = _voxels(stage, gpu_scene, settings)
     if settings.view in ("voxel_albedo", "voxel_normal"):
         values = stage("attribute", make_attribute, voxels, settings.view == "voxel_normal").values
     else:
-        values = stage("light", light, gpu_scene, voxels, injection_of(settings, gpu_scene, view)).radiance
+        values = _lit(stage, gpu_scene, voxels, view, settings).radiance
     return lambda gbuffer, film: show_voxels(device, voxels.grid, values, gbuffer, settings, film)
 
 
@@ -154,6 +187,11 @@ class Session:
                     due = time.monotonic() + interval
 
         yield from thread.iterate(read_films, should_stop)
+
+    def forget(self, *stages: str) -> None:
+        """Make what the named stages, or all, have kept from earlier frames anew in the next one."""
+        thread, kept = self._opened()
+        thread.call(lambda device: kept.forget(stages or None))
 
     def device_info(self) -> dict[str, str]:
         """renderer, vendor and version of the device."""

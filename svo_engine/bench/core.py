@@ -32,16 +32,15 @@ def ladder_rows(session: Session, name: str, scene: Scene, reference: Reference 
     circumstances = {"scene": name, "size": f"{size[0]}x{size[1]}", "device": session.device_info()["renderer"]}
 
     def shoot(rung: Rung) -> Shot:
-        return shooter.shoot(KINDS["all"](scene, 0), rung.values)
+        return shooter.shoot(scene, rung.values, anew=KINDS["all"])
 
     for rung, shots in climb(rungs, shoot, longest, lines, name):
         yield row(rung, shots, reference, kind="all", **circumstances)
         if rung.values.get("time_limit"):
             continue
         for kind in ("light", "camera"):
-            shooter.shoot(scene, rung.values)
             again = repeat(lambda kind=kind, rung=rung:  # type: ignore[misc]
-                           shooter.shoot(KINDS[kind](scene, 0), rung.values))
+                           shooter.shoot(scene, rung.values, anew=KINDS[kind]))
             yield row(rung, again, reference, kind=kind, **circumstances)
 
 
@@ -53,12 +52,13 @@ def edit_rows(session: Session, name: str, scene: Scene, rung: Rung, size: tuple
                      "renderer": renderer}
     for edit_name, edit in possible(scene).items():
         lines.step(f"{name}: {renderer}, {edit_name}")
-        numbers = iter(range(1, 1000))
+        numbers, anew = iter(range(1, 1000)), KINDS["all" if edit_name == "everything" else "camera"]
 
-        def shoot(edit: Edit = edit, numbers: Iterator[int] = numbers, is_camera: bool = edit_name == "camera") -> Shot:
+        def shoot(edit: Edit = edit, numbers: Iterator[int] = numbers, is_camera: bool = edit_name == "camera",
+                  anew: tuple[str, ...] | None = anew) -> Shot:
             number = next(numbers)
             shooter.shoot(scene, values)  # the frame before the edit
-            return shooter.shoot(edit(scene, number), values, camera(scene, number) if is_camera else None)
+            return shooter.shoot(edit(scene, number), values, camera(scene, number) if is_camera else None, anew)
 
         shoot()
         shots = repeat(shoot)
@@ -72,11 +72,17 @@ class Shooter:
     def __init__(self, session: Session, size: tuple[int, int]) -> None:
         self._session, self._size = session, size
 
-    def shoot(self, scene: Scene, values: Mapping[str, Any], through: Camera | None = None) -> Shot:
-        """One frame, through the scene's camera or another, with the settings `values` and defaults for all others."""
+    def shoot(self, scene: Scene, values: Mapping[str, Any], through: Camera | None = None,
+              anew: tuple[str, ...] | None = None) -> Shot:
+        """One frame, through the scene's camera or another, with the settings `values` and defaults for all others.
+
+        anew  stages to be forgotten before, as Session.forget takes them; None: none
+        """
         if (eye := through or scene.camera) is None:
             raise SceneError("The scene has no camera")
         view, settings = make_view(eye, self._size), RenderSettings(**values)
+        if anew is not None:
+            self._session.forget(*anew)
         start = time.perf_counter()
         *_, film = self._session.films(scene, view, settings, interval=math.inf)
         seconds = time.perf_counter() - start

@@ -7,7 +7,6 @@ leaves the scene as it is: it is another view of it.
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -19,17 +18,6 @@ from ..scene.types import Camera, Scene
 Edit = Callable[[Scene, int], Scene]
 
 _SMALL = 1e-3  # of a metre, a radian or a value, for each number
-
-
-def all_anew(scene: Scene, _number: int) -> Scene:
-    """The same scene in arrays of its own, as if it were just loaded."""
-    return copy.deepcopy(scene)
-
-
-def light_anew(scene: Scene, _number: int) -> Scene:
-    """The same meshes and images, all else loaded again: what meshes cost stays, what light costs is paid."""
-    return replace(scene, instances=copy.deepcopy(scene.instances), materials=copy.deepcopy(scene.materials),
-                   lights=copy.deepcopy(scene.lights), world=copy.deepcopy(scene.world))
 
 
 def nothing(scene: Scene, _number: int) -> Scene:
@@ -71,10 +59,12 @@ def object_place(scene: Scene, number: int) -> Scene:
     return replace(scene, instances=replace(inst, world_from_object=matrices))
 
 
-KINDS: dict[str, Edit] = {"all": all_anew, "light": light_anew, "camera": nothing}
+# What is made anew, as Session.forget takes it: no name means everything, None nothing. "light": all from voxels on
+KINDS: dict[str, tuple[str, ...] | None] = {
+    "all": (), "light": ("voxelize", "light", "octree", "lights", "cache"), "camera": None}
 EDITS: dict[str, Edit] = {
     "nothing": nothing, "camera": nothing, "lamp's power": lamp_power, "lamp moved": lamp_place,
-    "material's colour": material_color, "object moved": object_place, "everything": all_anew}
+    "material's colour": material_color, "object moved": object_place, "everything": nothing}
 
 
 def possible(scene: Scene) -> dict[str, Edit]:

@@ -26,6 +26,7 @@ CONE_SAMPLES = 4
 MANY_SAMPLES = 65536  # more than a time limit lets through
 
 RUNS = 3
+WARM_SECONDS = 0.3
 RUNS_SECONDS = 10.0  # once the runs of a rung have taken as long, no further one is begun
 
 
@@ -114,8 +115,15 @@ def expected(known: Sequence[tuple[float, float]], cost: float) -> float:
 
 
 def repeat(shoot: Callable[[], Shot]) -> list[Shot]:
-    """RUNS shots, fewer where they take long."""
-    shots: list[Shot] = []
+    """RUNS shots, fewer where they take long.
+
+    Short ones are first shot for WARM_SECONDS without being counted: an idle graphics card has slowed down.
+    """
+    shots = [shoot()]
+    if (seconds := shots[0].seconds) < WARM_SECONDS:
+        while (seconds := seconds + shoot().seconds) < WARM_SECONDS:
+            pass
+        shots = []
     while len(shots) < RUNS and sum(shot.seconds for shot in shots) < RUNS_SECONDS:
         shots.append(shoot())
     return shots

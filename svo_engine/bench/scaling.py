@@ -18,7 +18,7 @@ from ..errors import GpuError
 from ..render import Session
 from ..scene.types import Scene
 from .core import Shooter
-from .edits import all_anew
+from .edits import KINDS
 from .progress import Lines
 from .rungs import Shot, median, repeat
 from .shapes import hall
@@ -92,4 +92,4 @@ def _series_rows(series: Sequence[Point], session: Session, lines: Lines) -> Ite
 
 
 def _shoot(shooter: Shooter, scene: Scene, settings: Mapping[str, Any]) -> Shot:
-    return shooter.shoot(all_anew(scene, 0), settings)
+    return shooter.shoot(scene, settings, anew=KINDS["all"])

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from typing import Any, TypeVar
+
+import numpy as np
 
 from .device import Device
 
@@ -37,6 +39,12 @@ class Kept:
     def __init__(self) -> None:
         self._results: dict[str, _Result] = {}
 
+    def forget(self, names: Iterable[str] | None = None) -> None:
+        """Drop the last results of some stages, or of all, so that the next frame makes them anew."""
+        for name in list(self._results if names is None else names):
+            if name in self._results:
+                self._results.pop(name).drop()
+
     @contextmanager
     def frame(self, device: Device) -> Iterator[Callable[..., Any]]:
         """The function `stage(name, make, *inputs)` for one frame.
@@ -65,7 +73,18 @@ class Kept:
 
 
 def _same(a: Any, b: Any) -> bool:
-    return a is b or (isinstance(a, (int, float, str, tuple)) and a == b)
+    """Whether two inputs are the same: values, arrays and records of them by value, results of stages by identity."""
+    if a is b:
+        return True
+    if type(a) is not type(b) or hasattr(a, "scope"):
+        return False
+    if isinstance(a, np.ndarray):
+        return a.dtype == b.dtype and np.array_equal(a, b)
+    if isinstance(a, tuple):
+        return len(a) == len(b) and all(map(_same, a, b))
+    if is_dataclass(a):
+        return all(_same(getattr(a, field.name), getattr(b, field.name)) for field in fields(a))
+    return isinstance(a, (int, float, str)) and a == b
 
 
 def _whole(make: Callable[..., T], device: Device, inputs: tuple[Any, ...]) -> T:

@@ -44,6 +44,10 @@ class GpuScope:
         self.n_bytes = self.n_objects = 0
         self.device.scopes.discard(self)
 
+    def adopt(self, other: GpuScope) -> None:
+        """Close `other` when this one closes."""
+        self._stack.callback(other.close)
+
     def buffer(self, label: str, data: np.ndarray | int, clear: bool = False) -> moderngl.Buffer:
         """A storage buffer that holds `data`, or that many bytes, zeros if `clear`. GpuError past the limit."""
         n_bytes = data if isinstance(data, int) else data.nbytes

@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 
 from ..errors import SceneError
+from .bounds import bounds, mesh_boxes
 
 Color = tuple[float, float, float]
 
@@ -302,17 +303,4 @@ class Scene:
 
     def bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """World-space box of all instances: (lowest, highest), each (3,) f8, metres; zeros for an empty scene."""
-        lows, highs = [], []
-        boxes = [(m.positions.min(0).astype("f8"), m.positions.max(0).astype("f8")) if len(m.positions) else None
-                 for m in self.meshes]
-        for mesh, matrix in zip(self.instances.mesh, self.instances.world_from_object, strict=True):
-            if (box := boxes[mesh]) is None:
-                continue
-            centre, half = (box[0] + box[1]) / 2, (box[1] - box[0]) / 2
-            centre_ws = matrix[:3, :3] @ centre + matrix[:3, 3]
-            half_ws = np.abs(matrix[:3, :3]) @ half
-            lows.append(centre_ws - half_ws)
-            highs.append(centre_ws + half_ws)
-        if not lows:
-            return np.zeros(3), np.zeros(3)
-        return np.min(lows, 0), np.max(highs, 0)
+        return bounds(mesh_boxes(self.meshes), self.instances)

@@ -94,8 +94,6 @@ def test_every_edit_changes_what_it_says_and_nothing_else():
         changed = {field for field in ("meshes", "instances", "materials", "lights", "world", "camera")
                    if getattr(edited, field) is not getattr(scene, field)}
         assert len(changed) == 1
-    assert named["everything"](scene, 1).meshes[0] is not scene.meshes[0]
-    assert edits.light_anew(scene, 1).meshes is scene.meshes
     assert not np.array_equal(edits.camera(scene, 1).world_from_camera, edits.camera(scene, 2).world_from_camera)
 
 
@@ -152,7 +150,7 @@ def test_scaling_measures_each_point():
 
 
 def test_what_does_not_fit_the_device_is_left_out_with_a_sentence(monkeypatch, capsys):
-    def refuse(*_):
+    def refuse(*_, **__):
         raise GpuError("Too large")
 
     monkeypatch.setattr(scaling.Shooter, "shoot", refuse)

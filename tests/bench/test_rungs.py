@@ -66,10 +66,15 @@ def test_samples_can_be_chosen():
 
 
 def test_every_rung_is_timed_three_times_after_one_run_for_nothing():
-    found, counts, said = climbed(ladder("cycles", (1, 4)), lambda rung: 0.1)
+    found, counts, said = climbed(ladder("cycles", (1, 4)), lambda rung: 0.5)
     assert found == ["1 sample", "4 samples"]
     assert counts == {"1 sample": 1 + rungs.RUNS, "4 samples": rungs.RUNS}
     assert said == []
+
+
+def test_short_rungs_warm_the_device_up_first():
+    _, counts, _ = climbed(ladder("cycles", (1, 4)), lambda rung: 0.6 * rungs.WARM_SECONDS)
+    assert counts == {"1 sample": 3 + rungs.RUNS, "4 samples": 2 + rungs.RUNS}
 
 
 def test_long_runs_are_repeated_less():

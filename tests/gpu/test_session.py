@@ -61,11 +61,13 @@ def test_cancelling_at_any_moment_leaks_nothing(session):
 
 def test_a_scene_too_large_for_the_device_is_an_error_and_leaks_nothing(session):
     thread = session._opened()[0]
+    session.forget()
     picture(session, scenes.cornell())
     first = held(session)
     limits = thread.call(lambda device: device.limits)
     small = {**limits, "GL_MAX_SHADER_STORAGE_BLOCK_SIZE": 40_000}
     thread.call(lambda device: setattr(device, "limits", small))
+    session.forget()
     with pytest.raises(GpuError, match="needs"):
         picture(session, scenes.cornell())
     thread.call(lambda device: setattr(device, "limits", limits))

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from svo_engine.passes.albedo import albedo
-from svo_engine.passes.upload import _materials
+from svo_engine.passes.upload.surfaces import _materials
 from svo_engine.scene.types import Material
 from tests.compute import evaluate
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import replace
 
 import numpy as np
@@ -69,6 +70,7 @@ def stages_run(film) -> set[str]:
 def rendered(session):
     """A scene that the session has just rendered."""
     scene = scenes.cornell()
+    session.forget()
     assert stages_run(film_of(session, scene)) == {VOXELIZE, LIGHT, GATHER}
     return scene
 
@@ -89,6 +91,42 @@ def test_a_moved_camera_needs_new_light_if_highlights_are_stored(session, render
     moved = replace(rendered.camera, world_from_camera=scenes.look((1, -4, 1), (0, 0, 1)))
     film = film_of(session, rendered, scenes.view(replace(rendered, camera=moved)), injection_specular=0.5)
     assert stages_run(film) == {LIGHT, GATHER}
+
+
+def made(session, scene) -> set[str]:
+    """The stages of which anything ran on the way to the picture of `scene` by rays."""
+    counts = film_of(session, scene, method="rays", cache_resolution="32", cache_rays=1).stats["counts"]
+    return {name for name in ("bvh/nearest", "octree/accumulate", "cache/link", "gather/rays") if counts.get(name)}
+
+
+@pytest.mark.parametrize(("edit", "expected"), [
+    (lambda s: replace(s, lights=(replace(s.lights[0], emitted=(9, 8, 7)),)), {"cache/link", "gather/rays"}),
+    (lambda s: replace(s, world=World((1, 1, 0))), {"cache/link", "gather/rays"}),
+    (lambda s: replace(s, materials=(replace(s.materials[0], base_color=(0.1, 0.2, 0.3)), *s.materials[1:])),
+     {"octree/accumulate", "cache/link", "gather/rays"}),
+    (copy.deepcopy, {"gather/rays"}),
+], ids=["a lamp's power", "the world", "a colour", "nothing, loaded again"])
+def test_an_edit_costs_its_own_part(session, edit, expected):
+    """And gives what a session gives that has seen nothing else."""
+    scene = scenes.cornell()
+    session.forget()
+    assert made(session, scene) == {"bvh/nearest", "octree/accumulate", "cache/link", "gather/rays"}
+    assert made(session, edit(scene)) == expected
+    settings = {"method": "rays", "cache_resolution": "32", "cache_rays": 1}
+    after = picture_of(session, edit(scene), **settings)
+    session.forget()
+    assert np.array_equal(after, picture_of(session, edit(scene), **settings))
+
+
+def test_a_moved_object_keeps_the_trees_of_meshes(session):
+    scene = scenes.cornell()
+    session.forget()
+    made(session, scene)
+    matrices = scene.instances.world_from_object.copy()
+    matrices[-1, 0, 3] += 0.01
+    counts = film_of(session, replace(scene, instances=replace(scene.instances, world_from_object=matrices)),
+                     method="rays", cache_resolution="32", cache_rays=1).stats["counts"]
+    assert counts["octree/accumulate"] and counts["bvh/nearest invocations"] < scene.n_triangles
 
 
 @pytest.mark.parametrize("changed", [{"injection_ambient": 0.1}, {"injection_samples": 7}, {"injection_specular": 0.1}])

@@ -226,7 +226,7 @@ def sky(request, device):
             lights = make_lights(device, gpu_scene)
             with lights.scope:
                 bound = lights.resources()
-                textures = {"u_sky": bound["u_sky"], "u_env": gpu_scene.env}
+                textures = {"u_sky": bound["u_sky"], "u_env": gpu_scene.sky.texture}
                 names = ("u_world_radiance", "u_env_from_world", "u_has_env", "u_sky_size", "u_world_from_env")
                 uniforms = {name: {**gpu_scene.world(), **bound}[name] for name in names}
                 rows = {name: values.astype("f4") for name, values in inputs.items()}

@@ -23,6 +23,7 @@ def test_the_cache_falls_to_what_fits(session, monkeypatch):
     assert whole.stats["limits"] == []
     largest = 64 * 2 * whole.stats["counts"]["surfels"]  # four vec4 for each of two sides
     limited(session, monkeypatch, largest - 1)
+    session.forget()
     film = film_of(session, scenes.cornell(), **SETTINGS)
     assert len(film.stats["limits"]) == 1
     assert film.stats["limits"][0].startswith("The light cache has 32 voxels a side instead of 64: ")
@@ -33,5 +34,6 @@ def test_the_cache_falls_to_what_fits(session, monkeypatch):
 
 def test_no_room_at_all_is_an_error(session, monkeypatch):
     limited(session, monkeypatch, 20_000)
+    session.forget()
     with pytest.raises(GpuError, match=LIMIT):
         film_of(session, scenes.cornell(), **SETTINGS)

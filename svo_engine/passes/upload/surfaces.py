@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials, textures and their images on the device."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...gpu.device import Device
+from ...gpu.scope import GpuScope
+from ...scene import layouts
+from ...scene.types import Image, Material, Texture
+
+
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """buffers: those of bind/materials.glsl. emission_unit: the highest radiance that any material sends out."""
+
+    scope: GpuScope
+    buffers: dict[str, Any]
+    has_textures: bool
+    has_alpha: bool
+    has_specular: bool
+    has_glass: bool
+    emission_unit: float
+
+
+def upload_surfaces(device: Device, materials: tuple[Material, ...], textures: tuple[Texture, ...],
+                    images: tuple[Image, ...]) -> Surfaces:
+    """Copy the materials, and the texels of all images if there is a texture."""
+    scope = device.scope()
+    words = [_words(image) for image in images] if textures else []
+    firsts = np.cumsum([0] + [len(w) for w in words])
+    buffers = {
+        "Materials": scope.buffer("materials", _materials(materials)),
+        "Textures": scope.buffer("textures", _textures(textures, images, firsts)),
+        "Texels": scope.buffer("texels", np.concatenate(words) if words else np.zeros(0, "u4"))}
+    return Surfaces(
+        scope, buffers, has_textures=has_textures(materials),
+        has_alpha=any(m.alpha < 1 or m.alpha_texture >= 0 for m in materials),
+        has_specular=has_specular(materials), has_glass=any(m.transmission > 0 for m in materials),
+        emission_unit=max((_emission_bound(m, textures, images) for m in materials), default=0.0))
+
+
+def has_textures(materials: tuple[Material, ...]) -> bool:
+    """Whether any material reads an image."""
+    return any(max(m.textures) >= 0 for m in materials)
+
+
+def has_specular(materials: tuple[Material, ...]) -> bool:
+    """Whether any material does more than send out and reflect light diffusely."""
+    return any(m.metallic > 0 or m.metallic_texture >= 0 or m.specular_level > 0 or m.transmission > 0
+               for m in materials)
+
+
+def _emission_bound(material: Material, textures: tuple[Texture, ...], images: tuple[Image, ...]) -> float:
+    """The highest radiance that the material can send out: the unit of fixed-point sums."""
+    bound = max(material.emission)
+    if bound > 0 and material.emission_texture >= 0:
+        pixels = images[textures[material.emission_texture].image].pixels
+        bound *= 1.0 if pixels.dtype == np.uint8 else float(pixels.max(initial=0.0))
+    return max(bound, 0.0)
+
+
+def _materials(materials: tuple[Material, ...]) -> np.ndarray:
+    rows = np.zeros(len(materials), layouts.dtype(layouts.MATERIAL))
+    for row, material in zip(rows, materials, strict=True):
+        for name in rows.dtype.names or ():
+            row[name] = getattr(material, name)
+    return rows
+
+
+def _words(image: Image) -> np.ndarray:
+    """The image's texels as words (n,) u4: one a texel of bytes, four a texel of floats."""
+    return np.ascontiguousarray(image.pixels).reshape(-1, 4).view("u4").ravel()
+
+
+def _textures(textures: tuple[Texture, ...], images: tuple[Image, ...], firsts: np.ndarray) -> np.ndarray:
+    rows = np.zeros(len(textures), layouts.dtype(layouts.TEXTURE))
+    for row, texture in zip(rows, textures, strict=True):
+        image = images[texture.image]
+        kind = "FLOAT" if image.pixels.dtype != np.uint8 else "SRGB8" if image.is_srgb else "LINEAR8"
+        row["u_from_uv"], row["v_from_uv"] = texture.uv_from_mesh[:3], texture.uv_from_mesh[3:]
+        row["first_word"], row["format"] = firsts[texture.image], layouts.CONSTANTS[f"FORMAT_{kind}"]
+        row["height"], row["width"] = image.pixels.shape[:2]
+        row["extension"] = layouts.CONSTANTS[f"EXTENSION_{texture.extension}"]
+        row["closest"], row["channel"] = texture.interpolation == "Closest", texture.channel
+    return rows
