@@ -50,8 +50,9 @@ def put(text: str, name: str, lines: Iterator[str]) -> str:
 def stage_lines(scene: str, stats: Mapping[str, Any], n_reference: int) -> Iterator[str]:
     """Pictures two in a row, with captions and milliseconds."""
     times, counts = stats["times_ms"], stats["counts"]
+    how = "from nothing" if "cache/link" in times else "with trees and light kept from the frame before"
     yield (f"`{scene}` on {stats['device']}: {counts['triangles']:,} triangles, {counts['surfels']:,} surfels; "
-           f"{sum(times.values()):.1f} ms for one sample from nothing, the host's part included.")
+           f"{sum(times.values()):.1f} ms for one sample {how}, the host's part included.")
     cells = [(stage.name, stage.caption, milliseconds(stage, times)) for stage in STAGES]
     cells += [("cycles", f"Cycles, {n_reference} samples", 0.0)]
     yield from ("", "| | |", "|---|---|")
