@@ -13,7 +13,6 @@
 #include "bind/samples.glsl"
 
 const bool IS_GLOSSY = false;
-const float NORMAL_POWER = 64.0;
 const float PLANE_PIXELS = 1.0;    // z: distance from the surface's plane, in pixels of that depth
 const float BLUR = 3.0;            // a over alpha: GGX sends 7 of 10 reflections into that angle
 
@@ -64,6 +63,13 @@ vec2 steady(ivec2 pixel)
     return sum / max(weight, 1e-6);
 }
 
+float to_the_64(float x)
+{
+    for (int i = 0; i < 6; i++)
+        x *= x;
+    return x;
+}
+
 void main()
 {
     uint index = u_first + gl_GlobalInvocationID.x;
@@ -97,7 +103,7 @@ void main()
             Guide there = guide(at);
             vec3 dn = there.normal - here.normal;
             float w_n = IS_GLOSSY ? exp(-(dot(dn, dn) + float(x * x + y * y) * angle * angle) * blur)
-                                  : pow(clamp(dot(here.normal, there.normal), 0.0, 1.0), NORMAL_POWER);
+                                  : to_the_64(clamp(dot(here.normal, there.normal), 0.0, 1.0));
             float w = kernel[abs(x)] * kernel[abs(y)] * w_n
                     * exp(-abs(dot(here.normal, there.position - here.position)) / (pixel_size * PLANE_PIXELS * float(u_step))
                           - abs(luminance(tap.rgb) - Y) / sigma);
