@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Ladders and edits through the core alone, from scenes in .npz files: no Blender, no other library than the core's.
 
-A time is that of a whole frame: from a Scene to pixels on the host. Copies that make a Scene new are not in it.
+A time is that of a whole frame: from a Scene to pixels on the host. Forgetting what was kept is not in it.
 """
 
 from __future__ import annotations

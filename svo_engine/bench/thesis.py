@@ -6,7 +6,7 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from ..errors import GpuError
@@ -17,6 +17,7 @@ from ..passes.voxelize import cut_strips, make_grid, mark, voxelize
 from ..render import Session
 from ..scene.types import Scene
 from .core import Shooter
+from .edits import KINDS
 from .progress import Lines
 from .rungs import RUNS, RUNS_SECONDS, median, repeat
 from .shapes import hall
@@ -52,8 +53,9 @@ def frame_rows(name: str, scene: Scene, lines: Lines) -> Iterator[Timed]:
     try:
         for what, values in (("direct light", DIRECT), ("whole frame", FRAME)):
             lines.step(f"{name}: {what}")
-            shooter.shoot(replace(scene), values)
-            shots = repeat(lambda values=values: shooter.shoot(replace(scene), values))  # type: ignore[misc]
+            shoot = partial(shooter.shoot, scene, values, anew=KINDS["all"])
+            shoot()
+            shots = repeat(shoot)
             gpu = stages(gpu_passes(shots[-1].parts))
             yield Timed(name, scene.n_triangles, session.device_info()["renderer"], what, int(str(FRAME["resolution"])),
                         0, sum(gpu.values()), median(shots) * 1e3, len(shots), pack(gpu))
@@ -71,8 +73,9 @@ def triangle_scenes(most: int) -> Iterator[tuple[str, Scene]]:
 def occupy(device: Device, gpu_scene: Any, n: int) -> int:
     """Mark the voxels that surfaces touch; how many there are is not counted."""
     with device.scope() as scratch:
-        work, n_strips = cut_strips(device, scratch, gpu_scene, make_grid(gpu_scene.extent, n))
-        mark(device, scratch, work, n_strips, make_grid(gpu_scene.extent, n))
+        grid = make_grid(gpu_scene.extent, n)
+        work, n_strips = cut_strips(device, scratch, gpu_scene, grid)
+        mark(device, scratch, work, n_strips, grid)
     return 0
 
 

@@ -129,6 +129,7 @@ def test_tables_of_the_thesis(monkeypatch):
         rows = list(thesis.voxelization_rows(thread, "room", scenes.cornell(), (32,), Lines()))
     rows += thesis.frame_rows("room", scenes.cornell(), Lines())
     assert [row.what for row in rows] == ["occupancy", "voxels", "direct light", "whole frame"]
+    assert all("voxelize" in row.parts for row in rows[2:])  # nothing is left from the frame before
     assert all(row.gpu_ms > 0 and row.n_runs for row in rows)
     assert rows[1].n_voxels > 0
     assert tables.unpack(rows[1].parts).keys() > tables.unpack(rows[0].parts).keys()
