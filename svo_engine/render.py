@@ -17,7 +17,8 @@ from .passes.adaptive import is_done, make_progress
 from .passes.bvh import Bvh, build_bvh, build_meshes
 from .passes.cache import LightCache, light_cache
 from .passes.debug import make_attribute, show_surfels, show_voxels
-from .passes.denoise import make_pictures, read_picture
+from .passes.denoise import read_picture
+from .passes.denoise.choice import make_denoiser, wanted
 from .passes.gather import Incident, gather_cones, gather_rays, make_incident
 from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
@@ -43,8 +44,12 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
             gpu_scene = assemble(scope, scene, stage)
-        film = make_film(scope, view, planes_for(gpu_scene, settings), gpu_scene.centre_ws,
+        denoiser = stage("denoiser", make_denoiser, view.size, wanted(settings), settings.denoising_quality,
+                         not gpu_scene.has_alpha)
+        film = make_film(scope, view, planes_for(gpu_scene, settings, denoiser.name), gpu_scene.centre_ws,
                          make_progress(scope, view.size, settings), is_black=settings.view != "combined")
+        film.denoiser = denoiser
+        film.limits.extend(denoiser.limits)
         targets = stage("targets", make_targets, view.size)
         incident = stage("incident", make_incident, view.size, gpu_scene.has_specular, "DIFFUSE_FOUND" in film.planes)
         gather, show, bvh = None, None, None
@@ -183,7 +188,7 @@ class Session:
             due = 0.0
             for film in render(scene, view, settings, device, kept):
                 if film.is_last or time.monotonic() >= due:
-                    yield _read(film, device, kept, scene, settings)
+                    yield _read(film, device, scene, settings)
                     due = time.monotonic() + interval
 
         yield from thread.iterate(read_films, should_stop)
@@ -211,11 +216,10 @@ class Session:
             return self._open
 
 
-def _read(film: GpuFilm, device: Device, kept: Kept, scene: Scene, settings: RenderSettings) -> Film:
+def _read(film: GpuFilm, device: Device, scene: Scene, settings: RenderSettings) -> Film:
     """The film on the host, with what it took."""
-    with kept.frame(device) as stage:
-        read = read_picture(device, film, stage("pictures", make_pictures, film.size), settings.denoise,
-                            settings.passes)
+    assert film.denoiser is not None
+    read = read_picture(device, film, film.denoiser, settings.passes)
     counts = {"triangles": scene.n_triangles, "lights": len(scene.lights), "samples": film.n_samples,
               "device bytes": device.n_bytes, **device.profiler.counts}
     if film.progress:

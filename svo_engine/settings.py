@@ -33,6 +33,16 @@ METHODS = (
 CACHE_RESOLUTIONS = tuple((str(n), f"{n}\u00b3", f"{n} voxels along the longest side of the scene")
                           for n in (32, 64, 128, 256, 512, 1024))
 RESOLUTIONS = CACHE_RESOLUTIONS[:4]
+DENOISERS = (
+    ("automatic", "Automatic", "OpenImageDenoise where it runs on the device that draws, else the wavelet"),
+    ("openimagedenoise", "OpenImageDenoise", "Blender's own neural filter, as in Cycles: the least error"),
+    ("atrous", "A-Trous Wavelet", "On the graphics card, for diffuse and glossy light: no library, a millisecond"),
+)
+QUALITIES = (
+    ("high", "High", "The least error"),
+    ("balanced", "Balanced", "Between the other two"),
+    ("fast", "Fast", "The quickest: a quarter of the time"),
+)
 VIEWS = (
     ("combined", "Combined", "The picture"),
     ("cache_albedo", "Light Cache Albedo", "The surfels that hold the light, showing the colour of their surfaces"),
@@ -80,7 +90,7 @@ class RenderSettings:
     time_limit: float = _setting(0.0, "Time Limit", "Seconds after which no new sample is begun; 0 means no limit",
                                  "Sampling", low=0, high=86400, unit="s")
     seed: int = _setting(0, "Seed", "Another number gives another pattern of noise", "Sampling", low=0, high=2**31 - 1)
-    gather_rays: int = _setting(4, "Diffuse Rays", "Rays of each pixel and sample that look for indirect light", "Rays",
+    gather_rays: int = _setting(2, "Diffuse Rays", "Rays of each pixel and sample that look for indirect light", "Rays",
                                 low=1, high=16)
     cache_resolution: str = _setting("128", "Light Cache",
                                      "Voxels along the longest side of the octree that holds the light",
@@ -88,8 +98,15 @@ class RenderSettings:
     cache_rays: int = _setting(16, "Cache Rays", "Rays with which each surface in the octree gathers its light", "Rays",
                                low=1, high=1024)
     bounces: int = _setting(12, "Bounces", "Most bounces of diffuse light after the first", "Rays", low=0, high=1024)
-    denoise: bool = _setting(True, "Denoise", "Smooth what noise the samples leave; less and less as there are more",
-                             "Sampling")
+    denoise: bool = _setting(True, "Denoise", "Smooth what noise the samples leave", "Sampling")
+    denoiser: str = _setting("openimagedenoise", "Denoiser", "What smooths the noise", "Sampling",
+                             choices=DENOISERS)
+    denoising_quality: str = _setting("high", "Quality", "Of OpenImageDenoise", "Sampling", choices=QUALITIES)
+    viewport_denoise: bool = _setting(True, "Viewport Denoise", "The same in the viewport", "Sampling")
+    viewport_denoiser: str = _setting("automatic", "Denoiser", "What smooths the noise in the viewport", "Sampling",
+                                      choices=DENOISERS)
+    viewport_denoising_quality: str = _setting("fast", "Quality", "Of OpenImageDenoise in the viewport", "Sampling",
+                                               choices=QUALITIES)
     filter_width: float = _setting(1.5, "Filter Width", "Width of the Blackman-Harris pixel filter", "Film", low=0.01,
                                    high=10, unit="px")
     resolution: str = _setting("128", "Resolution", "Voxels along the longest side of the scene", "Voxel Grid",
@@ -124,10 +141,12 @@ class RenderSettings:
     passes: tuple[str, ...] = ()
 
     def for_viewport(self) -> RenderSettings:
-        """The same with the viewport's own samples, and no time limit."""
+        """The same with the viewport's own samples and denoiser, and no time limit."""
         return replace(self, samples=self.viewport_samples, time_limit=0.0,
                        adaptive_sampling=self.viewport_adaptive_sampling,
-                       noise_threshold=self.viewport_noise_threshold, min_samples=self.viewport_min_samples)
+                       noise_threshold=self.viewport_noise_threshold, min_samples=self.viewport_min_samples,
+                       denoise=self.viewport_denoise, denoiser=self.viewport_denoiser,
+                       denoising_quality=self.viewport_denoising_quality)
 
     def __post_init__(self) -> None:
         if unknown := [name for name in self.passes if name not in PASSES]:

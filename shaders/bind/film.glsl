@@ -17,6 +17,7 @@ const int PLANE_TRANSMISSION_INDIRECT = -1;
 const int PLANE_TRANSMISSION_COLOR = -1;
 const int PLANE_EMISSION = -1;
 const int PLANE_ENVIRONMENT = -1;
+const int PLANE_ALBEDO = -1;              // all colours together, with what shines by itself
 const int PLANE_NORMAL_DEPTH = -1;        // unit normal of the first hit, distance from the eye
 const int PLANE_HALF = -1;                // as COMBINED, of half of the samples
 const int PLANE_POSITION = -1;            // of the first sample alone, metres relative to the grid's centre; alpha 1

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    one of Blender's render passes: planes of the film, added up and divided by the samples or by an albedo.
-// Formula:    sum(w_i plane_i) / n, or / plane_d where that is not 0
+// Formula:    (sum(plane_i) - sum(plane_j)) / n, or / plane_d where that is not 0
 // In:         u_film
 // Out:        u_mean
 // Invocation: one pixel
@@ -16,8 +16,9 @@ uniform sampler2DArray u_film;
 uniform uint u_first;
 uniform uint u_end;
 uniform ivec2 u_size;
-uniform mat4 u_weights;  // layer i: column i / 4, row i % 4
-uniform int u_divisor;   // layer; -1: the number of samples
+uniform uint u_plus;    // bit i: layer i is added
+uniform uint u_minus;   // or taken off
+uniform int u_divisor;  // layer; -1: the number of samples
 
 void main()
 {
@@ -26,10 +27,10 @@ void main()
     if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
         return;
     vec4 sum = vec4(0.0);
-    int n_layers = textureSize(u_film, 0).z;
-    for (int i = 0; i < n_layers; i++)
-        if (u_weights[i / 4][i % 4] != 0.0)
-            sum += u_weights[i / 4][i % 4] * texelFetch(u_film, ivec3(pixel, i), 0);
+    for (uint rest = u_plus | u_minus; rest != 0u; rest &= rest - 1u) {
+        int i = findLSB(rest);
+        sum += ((u_plus >> i & 1u) != 0u ? 1.0 : -1.0) * texelFetch(u_film, ivec3(pixel, i), 0);
+    }
     vec4 mean = sum / n_samples(pixel);
     if (u_divisor >= 0) {
         vec3 color = texelFetch(u_film, ivec3(pixel, u_divisor), 0).rgb;

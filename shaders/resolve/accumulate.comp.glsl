@@ -107,17 +107,22 @@ void main()
     if (!seen.hit) {
         vec3 world = world_radiance(-seen.wo, 0.0);
         add(pixel, PLANE_ENVIRONMENT, vec4(world, 0.0));
-        add_picture(pixel, u_film_transparent ? vec4(0.0) : vec4(world, 1.0));
+        vec4 shown = u_film_transparent ? vec4(0.0) : vec4(world, 1.0);
+        add(pixel, PLANE_ALBEDO, vec4(shown.rgb, 0.0));
+        add_picture(pixel, shown);
         return;
     }
-    vec3 L = seen.shading.emission;
+    vec3 L = seen.shading.emission, albedo = L;
     if (HAS_SPECULAR) {
         Bsdf b = bsdf_of(seen);
+        albedo += b.diffuse + b.glossy + b.transmission;
         L += add_diffuse(pixel, b.diffuse) + add_glossy(pixel, b.glossy, b.alpha) + add_transmission(pixel, b.transmission);
     } else {
+        albedo += seen.shading.base_color;
         L += add_diffuse(pixel, seen.shading.base_color);
     }
     add(pixel, PLANE_EMISSION, vec4(seen.shading.emission, 0.0));
+    add(pixel, PLANE_ALBEDO, vec4(albedo, 0.0));
     add_picture(pixel, vec4(L, 1.0));
     add_place(pixel, seen.surface);
 }

@@ -9,33 +9,10 @@ import bpy
 from bl_ui import properties_render
 
 from ..settings import specs
-from . import host_panels
-from .engine import SVORenderEngine
+from . import host_panels, sampling_panels
+from .panel_base import CLOSED, ENGINE, RenderPanel
 
-ENGINE = SVORenderEngine.bl_idname
-_OURS = {ENGINE}
-_CLOSED = {"DEFAULT_CLOSED"}
 _OF_LIT_VOXELS = {"injection_ambient", "injection_specular", "injection_shininess"}
-
-
-class _RenderPanel:
-    """A panel of the render tab that only our engine shows."""
-
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
-    bl_context = "render"
-    COMPAT_ENGINES = _OURS
-    layout: Any
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return context.engine in cls.COMPAT_ENGINES
-
-    def column(self) -> Any:
-        """A column in the layout of Blender's own panels: labels on the left, no dots for keyframes."""
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        return self.layout.column()
 
 
 def _has_voxels(svo: Any) -> bool:
@@ -50,7 +27,7 @@ def _has_effect(svo: Any, name: str) -> bool:
     return name not in _OF_LIT_VOXELS or _has_voxels(svo)
 
 
-class _GroupPanel(_RenderPanel):
+class _GroupPanel(RenderPanel):
     """All settings of one group of `settings.py`."""
 
     group: str
@@ -62,64 +39,6 @@ class _GroupPanel(_RenderPanel):
                 part = column.column()
                 part.active = _has_effect(svo, name)
                 part.prop(svo, name)
-
-
-class SVO_PT_sampling(_RenderPanel, bpy.types.Panel):
-    """What both parts below have in common."""
-
-    bl_label = "Sampling"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column = self.column()
-        column.prop(context.scene.svo, "method")
-        column.prop(context.scene.svo, "denoise")
-
-
-def _samples(column: Any, svo: Any, prefix: str = "") -> None:
-    """The noise threshold and the samples, as Cycles shows them."""
-    is_adaptive = getattr(svo, f"{prefix}adaptive_sampling")
-    row = column.column(align=True, heading="Noise Threshold").row(align=True)
-    row.prop(svo, f"{prefix}adaptive_sampling", text="")
-    threshold = row.row()
-    threshold.active = is_adaptive
-    threshold.prop(svo, f"{prefix}noise_threshold", text="")
-    samples = column.column(align=True)
-    samples.prop(svo, f"{prefix}samples", text="Max Samples" if is_adaptive else "Samples")
-    if is_adaptive:
-        samples.prop(svo, f"{prefix}min_samples", text="Min Samples")
-
-
-class SVO_PT_sampling_viewport(_RenderPanel, bpy.types.Panel):
-    """The viewport's samples."""
-
-    bl_label = "Viewport"
-    bl_parent_id = "SVO_PT_sampling"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        _samples(self.column(), context.scene.svo, "viewport_")
-
-
-class SVO_PT_sampling_render(_RenderPanel, bpy.types.Panel):
-    """The final render's samples."""
-
-    bl_label = "Render"
-    bl_parent_id = "SVO_PT_sampling"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column = self.column()
-        _samples(column, context.scene.svo)
-        column.prop(context.scene.svo, "time_limit")
-
-
-class SVO_PT_sampling_advanced(_RenderPanel, bpy.types.Panel):
-    """What is rarely touched."""
-
-    bl_label = "Advanced"
-    bl_parent_id = "SVO_PT_sampling"
-    bl_options = _CLOSED
-
-    def draw(self, context: bpy.types.Context) -> None:
-        self.column().prop(context.scene.svo, "seed")
 
 
 class SVO_PT_rays(_GroupPanel, bpy.types.Panel):
@@ -146,7 +65,7 @@ class SVO_PT_cones(_GroupPanel, bpy.types.Panel):
     """The cones that gather light."""
 
     bl_label = group = "Cones"
-    bl_options = _CLOSED
+    bl_options = CLOSED
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -157,19 +76,19 @@ class SVO_PT_light_injection(_GroupPanel, bpy.types.Panel):
     """How the lamps light the voxels."""
 
     bl_label = group = "Light Injection"
-    bl_options = _CLOSED
+    bl_options = CLOSED
 
 
-class SVO_PT_simplify(_RenderPanel, bpy.types.Panel):
+class SVO_PT_simplify(RenderPanel, bpy.types.Panel):
     """Blender's own Simplify, which every engine that shows it elsewhere than on top has to repeat."""
 
     bl_label = "Simplify"
-    bl_options = _CLOSED
+    bl_options = CLOSED
     draw_header = properties_render.RENDER_PT_simplify.draw_header
     draw = properties_render.RENDER_PT_simplify.draw
 
 
-class SVO_PT_simplify_viewport(_RenderPanel, bpy.types.Panel):
+class SVO_PT_simplify_viewport(RenderPanel, bpy.types.Panel):
     """Blender's own, for the viewport."""
 
     bl_label = "Viewport"
@@ -177,7 +96,7 @@ class SVO_PT_simplify_viewport(_RenderPanel, bpy.types.Panel):
     draw = properties_render.RENDER_PT_simplify_viewport.draw
 
 
-class SVO_PT_simplify_render(_RenderPanel, bpy.types.Panel):
+class SVO_PT_simplify_render(RenderPanel, bpy.types.Panel):
     """Blender's own, for the final render."""
 
     bl_label = "Render"
@@ -185,7 +104,7 @@ class SVO_PT_simplify_render(_RenderPanel, bpy.types.Panel):
     draw = properties_render.RENDER_PT_simplify_render.draw
 
 
-class SVO_PT_film(_RenderPanel, bpy.types.Panel):
+class SVO_PT_film(RenderPanel, bpy.types.Panel):
     """The pixel filter, and whether the world is seen behind the scene."""
 
     bl_label = "Film"
@@ -200,14 +119,14 @@ class SVO_PT_debug(_GroupPanel, bpy.types.Panel):
     """What the picture shows."""
 
     bl_label = group = "Debug"
-    bl_options = _CLOSED
+    bl_options = CLOSED
 
 
-class SVO_PT_comparison(_RenderPanel, bpy.types.Panel):
+class SVO_PT_comparison(RenderPanel, bpy.types.Panel):
     """Our picture against that of Cycles."""
 
     bl_label = "Comparison"
-    bl_options = _CLOSED
+    bl_options = CLOSED
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -244,7 +163,7 @@ class SVO_PT_light_shadow(_LightPanel, bpy.types.Panel):
     """Whether the light casts a shadow."""
 
     bl_label = "Shadow"
-    bl_options = _CLOSED
+    bl_options = CLOSED
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -271,10 +190,9 @@ class SVO_PT_viewport_lighting(bpy.types.Panel):
         self.layout.prop(context.space_data.shading, "use_scene_lights_render")
 
 
-_CLASSES = (SVO_PT_sampling, SVO_PT_sampling_viewport, SVO_PT_sampling_render, SVO_PT_sampling_advanced, SVO_PT_rays,
-            SVO_PT_voxel_grid, SVO_PT_cones, SVO_PT_light_injection, SVO_PT_simplify, SVO_PT_simplify_viewport,
-            SVO_PT_simplify_render, SVO_PT_film, SVO_PT_debug, SVO_PT_comparison, SVO_PT_light_beam,
-            SVO_PT_light_shadow, SVO_PT_viewport_lighting)
+_CLASSES = (*sampling_panels.CLASSES, SVO_PT_rays, SVO_PT_voxel_grid, SVO_PT_cones, SVO_PT_light_injection,
+            SVO_PT_simplify, SVO_PT_simplify_viewport, SVO_PT_simplify_render, SVO_PT_film, SVO_PT_debug,
+            SVO_PT_comparison, SVO_PT_light_beam, SVO_PT_light_shadow, SVO_PT_viewport_lighting)
 
 
 def register() -> None:

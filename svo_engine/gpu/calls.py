@@ -26,6 +26,7 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {
     "glClearTexImage": (_U, _I, _U, _U, _P),
     "glBindBuffer": (_U, _U),
     "glClearBufferData": (_U, _U, _U, _U, _P),
+    "glFlush": (),
 }
 
 Calls = dict[str, Callable[..., None]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import ExitStack
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import moderngl
 import numpy as np
@@ -20,6 +20,13 @@ if TYPE_CHECKING:
     from .device import Device
 
 _BYTES = {"f1": 1, "f2": 2, "f4": 4, "u1": 1, "i1": 1, "u4": 4, "i4": 4}
+
+
+class Closing(Protocol):
+    """Whatever can be closed."""
+
+    def close(self) -> None:
+        """Give back what it holds."""
 
 
 class GpuScope:
@@ -44,7 +51,7 @@ class GpuScope:
         self.n_bytes = self.n_objects = 0
         self.device.scopes.discard(self)
 
-    def adopt(self, other: GpuScope) -> None:
+    def adopt(self, other: Closing) -> None:
         """Close `other` when this one closes."""
         self._stack.callback(other.close)
 
@@ -64,10 +71,11 @@ class GpuScope:
             clear_buffer(self.device.calls, made.glo)
         return made
 
-    def staging(self, label: str, n_bytes: int) -> moderngl.Buffer:
-        """A buffer from which the host reads what a texture held: twice as fast as from the texture on an H100."""
-        return self._make(label, n_bytes, lambda: self.device.ctx.buffer(reserve=n_bytes, dynamic=True),
-                          ("staging", n_bytes))
+    def pixels(self, label: str, size: tuple[int, int], for_host: bool = False) -> moderngl.Buffer:
+        """A buffer for what a texture RGBA f4 holds; `for_host`: which an H100 gives the host twice as fast."""
+        n_bytes = 16 * size[0] * size[1]
+        return self._make(label, n_bytes, lambda: self.device.ctx.buffer(reserve=n_bytes, dynamic=for_host),
+                          ("pixels", n_bytes, for_host))
 
     def texture(self, label: str, size: tuple[int, int], components: int, dtype: str,
                 data: np.ndarray | None = None) -> moderngl.Texture:

@@ -22,13 +22,13 @@ from .resolve import PLANES, GpuFilm
 from .upload import GpuScene
 
 MEAN = Pass(("planes/mean.comp.glsl",), textures=("u_film", "u_tiles"), images=("u_mean",),
-            uniforms=("u_size", "u_weights", "u_divisor", "u_n_samples"))
+            uniforms=("u_size", "u_plus", "u_minus", "u_divisor", "u_n_samples"))
 
 DEPTH_OF_NOTHING = 1e10  # as in Cycles
 
-_GUIDES = ("DIFFUSE_COLOR", "NORMAL_DEPTH")
-_FILTERED = (*_GUIDES, "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT")
-_FILTERED_GLOSSY = ("GLOSSY_DIRECT", "GLOSSY_INDIRECT", "GLOSSY_COLOR")
+_GUIDES = ("ALBEDO", "NORMAL_DEPTH")
+_LIGHT = ("DIFFUSE_COLOR", "NORMAL_DEPTH", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT")
+_GLOSSY_LIGHT = ("GLOSSY_DIRECT", "GLOSSY_INDIRECT", "GLOSSY_COLOR")
 
 
 @dataclass(frozen=True)
@@ -62,36 +62,48 @@ SOURCES = {
     "Environment": Source(("ENVIRONMENT",)),
     "Noisy Image": Source(("COMBINED",)),
     "Denoising Normal": Source(("NORMAL_DEPTH",)),
-    "Denoising Albedo": Source(("DIFFUSE_COLOR", "GLOSSY_COLOR", "TRANSMISSION_COLOR", "EMISSION", "ENVIRONMENT")),
+    "Denoising Albedo": Source(("ALBEDO",)),
     "Denoising Depth": Source(("NORMAL_DEPTH",)),
 }
 
 
-def planes_for(gpu_scene: GpuScene, settings: RenderSettings) -> tuple[str, ...]:
-    """The planes that the picture and the asked passes are made of."""
+def planes_for(gpu_scene: GpuScene, settings: RenderSettings, denoiser: str) -> tuple[str, ...]:
+    """The planes that the picture and the asked passes are made of, and those that the denoiser of that name needs."""
     wanted = {"COMBINED"}.union(*(SOURCES[name].planes for name in settings.passes))
     if is_adaptive(settings):
         wanted.add("HALF")
-    if settings.denoise and settings.view == "combined":
-        wanted.update(_FILTERED, _FILTERED_GLOSSY if gpu_scene.has_specular else ())
+    if denoiser == "openimagedenoise":
+        wanted.update(_GUIDES)
+    elif denoiser:
+        wanted.update(_LIGHT, _GLOSSY_LIGHT if gpu_scene.has_specular else ())
     return tuple(plane for plane in PLANES if plane in wanted)
 
 
-def read_pass(device: Device, film: GpuFilm, name: str, texture: Any) -> np.ndarray:
-    """The render pass `name`, (height, width, channels) f4; `texture`, RGBA f4 of the film's size, is overwritten."""
+def mean(device: Device, film: GpuFilm, name: str, texture: Any) -> None:
+    """Make the render pass `name` in `texture`, RGBA f4 of the film's size."""
     assert film.gbuffer is not None, "a film without a sample"
     source = SOURCES[name]
-    weights = np.zeros(16, "f4")
-    for planes, weight in ((source.plus, 1), (source.minus, -1)):
-        weights[[film.layer(plane) for plane in planes]] = weight
+    plus, minus = (sum(1 << film.layer(plane) for plane in planes) for planes in (source.plus, source.minus))
     device.dispatch(MEAN, film.gbuffer.n_invocations, film.constants(), u_film=film.sums, u_tiles=film.tiles,
-                    u_mean=texture, u_size=film.size, u_weights=weights.reshape(4, 4).T,
+                    u_mean=texture, u_size=film.size, u_plus=plus, u_minus=minus,
                     u_divisor=film.layer(source.divisor), u_n_samples=float(film.n_samples))
+
+
+def read_pixels(device: Device, texture: Any, staging: Any) -> np.ndarray:
+    """What is in a texture RGBA f4, (height, width, 4) f4, by way of a buffer of its size."""
+    width, height = texture.size
+    pixels = np.empty((height, width, 4), "f4")
     with device.profiler.host("read back"):
-        width, height = film.size
-        mean = np.frombuffer(texture.read(alignment=1), "f4").reshape(height, width, 4)
-    finish = _FINISH.get(name)
-    return (finish(film, mean) if finish else mean[..., :len(PASSES[name])]).astype("f4")
+        texture.read_into(staging)
+        staging.read_into(pixels)
+    return pixels
+
+
+def read_pass(device: Device, film: GpuFilm, name: str, texture: Any, staging: Any) -> np.ndarray:
+    """The render pass `name`, (height, width, channels) f4; `texture` and `staging` are overwritten."""
+    mean(device, film, name, texture)
+    pixels, finish = read_pixels(device, texture, staging), _FINISH.get(name)
+    return (finish(film, pixels) if finish else pixels[..., :len(PASSES[name])]).astype("f4")
 
 
 def _camera(film: GpuFilm) -> np.ndarray:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from .raster import GBuffer
 from .upload import GpuScene
 from .voxelize import GEOMETRY, MATERIALS
 
+if TYPE_CHECKING:
+    from .denoise.choice import Denoiser
+
 ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS),
                   textures=("u_visibility", "u_tiles", "u_env", "u_albedo"), images=("u_film", "u_incident"),
                   uniforms=(*CAMERA, *WORLD, "u_film_transparent", "u_sample"))
@@ -26,7 +29,7 @@ ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS),
 # What bind/film.glsl knows, in the order of layers
 PLANES = ("COMBINED", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_FOUND", "DIFFUSE_COLOR", "GLOSSY_DIRECT",
           "GLOSSY_INDIRECT", "GLOSSY_COLOR", "TRANSMISSION_DIRECT", "TRANSMISSION_INDIRECT", "TRANSMISSION_COLOR",
-          "EMISSION", "ENVIRONMENT", "NORMAL_DEPTH", "HALF", "POSITION")
+          "EMISSION", "ENVIRONMENT", "ALBEDO", "NORMAL_DEPTH", "HALF", "POSITION")
 
 
 @dataclass(eq=False)
@@ -40,6 +43,7 @@ class GpuFilm:
     is_last  whether the frame ends with this one
     limits   a sentence for each setting that the device was too small for
     cache    the light that its rays found, if there were rays
+    denoiser what makes a picture of it, if one is wanted
     """
 
     view: View
@@ -52,6 +56,7 @@ class GpuFilm:
     gbuffer: GBuffer | None = None
     limits: list[str] = field(default_factory=list)
     cache: LightCache | None = None
+    denoiser: Denoiser | None = None
 
     @property
     def size(self) -> tuple[int, int]:

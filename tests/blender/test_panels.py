@@ -53,8 +53,11 @@ def drawn_by(panel, context):
     """The Layout after `panel` has drawn itself."""
     layout = Layout()
     if panel.poll(context):
-        drawn = SimpleNamespace(layout=layout, column=lambda **_options: layout, group=getattr(panel, "group", ""))
-        panel.draw(drawn, context)
+        drawn = SimpleNamespace(layout=layout, column=lambda **_options: layout, group=getattr(panel, "group", ""),
+                                prefix=getattr(panel, "prefix", ""))
+        for draw in (getattr(panel, "draw_header", None), panel.draw):
+            if draw:
+                draw(drawn, context)
     return layout
 
 

@@ -19,7 +19,7 @@ RENDERER = "llvmpipe"
 PLAIN = replace(scenes.SMALL, samples=2)
 SETTINGS: dict[str, RenderSettings] = {
     "cones": replace(PLAIN, resolution="64"),
-    "rays": replace(PLAIN, method="rays", bounces=2, cache_rays=4, cache_resolution="64"),
+    "rays": replace(PLAIN, method="rays", gather_rays=4, bounces=2, cache_rays=4, cache_resolution="64"),
     "voxels": replace(PLAIN, view="voxel_radiance"),
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The noise filter on films made of numbers: what it must smooth and what it must leave."""
+"""The wavelet on films made of numbers: what it must smooth and what it must leave."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from svo_engine.passes.denoise import STEPS, make_pictures, read_picture
+from svo_engine.passes.denoise import read_picture
+from svo_engine.passes.denoise.atrous import STEPS
+from svo_engine.passes.denoise.choice import make_denoiser
 from svo_engine.passes.raster import GBuffer, make_targets
 from svo_engine.passes.resolve import PLANES as FILM_PLANES
 from svo_engine.passes.resolve import make_film
@@ -82,12 +84,12 @@ def picture(device, seen: Wall, is_filtered: bool = True, plane: str = "DIFFUSE_
     size = seen.samples.shape[2], seen.samples.shape[1]
     view = scenes.view(scenes.scene(camera=above(2.0 * size[0] / SIDE, size=size)))
     world_from_clip = view.world_from_view @ np.linalg.inv(view.clip_from_view)
-    targets, pictures = make_targets(device, size), make_pictures(device, size)
-    with device.scope() as scope, targets.scope, pictures.scope:
+    targets, denoiser = make_targets(device, size), make_denoiser(device, size, "atrous" if is_filtered else "")
+    with device.scope() as scope, targets.scope, denoiser.scope:
         film = make_film(scope, view, FILM_PLANES, np.zeros(3))
         film.sums.write(film_planes(seen, plane).tobytes())
         film.n_samples, film.gbuffer = len(seen.samples), GBuffer(targets, world_from_clip)
-        pixels = read_picture(device, film, pictures, is_filtered).planes["Combined"]
+        pixels = read_picture(device, film, denoiser).planes["Combined"]
     assert np.array_equal(pixels[..., 3], np.ones(size[::-1]))
     assert np.allclose(pixels[..., :3], pixels[..., :1], rtol=1e-5)
     return pixels[..., 0].astype("f8")
@@ -274,7 +276,8 @@ def test_a_whole_frame_is_quieter_and_as_bright(session):
     """
     scene = scenes.cornell(world=World((0.25, 0.5, 1.0)))
     settings = {**RAYS, "gather_rays": 1}
-    plain, smooth = (picture_of(session, scene, **{**settings, "denoise": denoise}) for denoise in (False, True))
+    plain, smooth = (picture_of(session, scene, **{**settings, "denoise": denoise, "denoiser": "atrous"})
+                     for denoise in (False, True))
     truth = picture_of(session, scene, **{**settings, "samples": 64})
     sky = np.isclose(plain, (0.25, 0.5, 1.0, 1.0)).all(2)
     assert sky.sum() > 100

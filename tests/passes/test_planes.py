@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from svo_engine.errors import SvoError
+from svo_engine.passes.denoise.choice import wanted
 from svo_engine.passes.planes import SOURCES, planes_for
 from svo_engine.passes.resolve import PLANES
 from svo_engine.passes.upload import upload
@@ -158,15 +159,18 @@ def test_only_the_planes_that_are_needed_exist(device):
     """Nobody who did not ask pays memory or time."""
 
     def planes(scene, **settings):
+        settings = RenderSettings(**settings)
         with upload(device, scene).scope:
-            return planes_for(upload(device, scene), RenderSettings(**settings))
+            return planes_for(upload(device, scene), settings, wanted(settings))
 
     diffuse = scenes.cornell()
     assert planes(diffuse, denoise=False) == ("COMBINED",)
     assert planes(diffuse, denoise=False, passes=("Depth",)) == ("COMBINED", "POSITION")
+    assert planes(diffuse, denoise=True) == ("COMBINED", "ALBEDO", "NORMAL_DEPTH")
     filtered = ("COMBINED", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_COLOR", "NORMAL_DEPTH")
-    assert planes(diffuse, denoise=True) == filtered
-    assert set(planes(room(), denoise=True)) == {*filtered, "GLOSSY_DIRECT", "GLOSSY_INDIRECT", "GLOSSY_COLOR"}
+    assert planes(diffuse, denoise=True, denoiser="atrous") == filtered
+    glossy = {*filtered, "GLOSSY_DIRECT", "GLOSSY_INDIRECT", "GLOSSY_COLOR"}
+    assert set(planes(room(), denoise=True, denoiser="atrous")) == glossy
     assert planes(room(), denoise=True, passes=ALL, samples=65) == PLANES
 
 
