@@ -88,7 +88,7 @@ def test_draws_and_rays_agree_on_what_metal_reflects(session, monkeypatch, rough
     """A panel weighed by the balance heuristic, and found by rays alone with four times the samples."""
     both = seen_in_metal(session, [panel()], roughness, 256)
     monkeypatch.setattr(emitters, "MOST", 0)
-    session._opened()[1]._results.clear()
+    session.forget()
     alone = seen_in_metal(session, [panel(n=2)], roughness, 1024)
     assert both.mean() == pytest.approx(alone.mean(), rel=0.02)
 

@@ -34,6 +34,7 @@ def test_work_that_is_cut_otherwise_gives_the_same_bits(session, monkeypatch):
     monkeypatch.setattr(device_module, "FIRST_SLICE", 512)
     monkeypatch.setattr(device_module, "SLICE_SECONDS", 1e-9)
     monkeypatch.setattr(session._opened()[0].call(lambda device: device), "_per_second", {})
+    session.forget()
     assert np.array_equal(first, shot(session, rich_scene(), samples=2))
 
 
