@@ -11,7 +11,7 @@ import numpy as np
 
 from svo_engine.scene.camera import make_view
 from svo_engine.scene.meshes import make_mesh
-from svo_engine.scene.types import Camera, Instances, Light, LightKind, Material, Mesh, Scene, View
+from svo_engine.scene.types import Camera, Instances, Light, LightKind, Material, Mesh, Scene, View, World
 from svo_engine.settings import RenderSettings
 
 Vec = Sequence[float]
@@ -24,6 +24,9 @@ WHITE = Material("White", (0.8, 0.8, 0.8), specular_level=0)
 BLACK = Material("Black", (0, 0, 0), specular_level=0)
 RED = Material("Red", (0.8, 0.1, 0.1), specular_level=0)
 GREEN = Material("Green", (0.1, 0.8, 0.1), specular_level=0)
+
+# A little of everything
+GLOSSY = Material("Glossy", (0.7, 0.5, 0.3), roughness=0.2, metallic=0.5, emission=(0.1, 0, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +120,17 @@ def cornell(*lights: Light, things: tuple[Thing, ...] = (), **more: Any) -> Scen
     camera = Camera("Camera", look((0, -4.2, 1), (0, 0, 1)), (64, 48), lens=40)
     lights = lights or (lamp("POINT", (0.2, -0.3, 1.7), emitted=5.0, radius=0.05),)
     return scene(*room(), *things, **{"camera": camera, "lights": lights, **more})
+
+
+def rich() -> Scene:
+    """The room with every kind of lamp, a glossy ball twice, and a sky."""
+    balls = (moved(0.5, 0.2, 0.25), moved(0.6, -0.4, 0.25))
+    return cornell(
+        lamp("POINT", (0.4, -0.3, 1.7), emitted=2.0, radius=0.1),
+        lamp("SPOT", (-0.5, -0.9, 1.5), (0, 0, 0), emitted=3.0, spot_angle=1.0, spot_blend=0.3, radius=0.05),
+        lamp("AREA", (0, 0, 1.9), emitted=4.0, size=(0.5, 0.3), spread=2.0),
+        lamp("SUN", (1, -3, 2), emitted=0.5, angle=0.01),
+        things=(Thing(sphere("Ball", 0.25, 8), GLOSSY, balls),), world=World((0.1, 0.2, 0.3)))
 
 
 def view(of: Scene, **more: Any) -> View:

@@ -11,54 +11,41 @@ import pytest
 
 from svo_engine.gpu import device as device_module
 from svo_engine.render import Session
-from svo_engine.scene.types import Camera, Material, Scene, World
+from svo_engine.scene.types import Camera, World
 from svo_engine.settings import VIEWS
 from tests import scenes
 from tests.on_gpu import film_of, picture_of
 
-GLASSY = Material("Glassy", (0.7, 0.5, 0.3), roughness=0.2, metallic=0.5, emission=(0.1, 0, 0))
-
-
-def rich_scene() -> Scene:
-    """Every kind of lamp, a metal ball twice, a sky."""
-    balls = (scenes.moved(0.5, 0.2, 0.25), scenes.moved(0.6, -0.4, 0.25))
-    return scenes.cornell(
-        scenes.lamp("POINT", (0.4, -0.3, 1.7), emitted=2.0, radius=0.1),
-        scenes.lamp("SPOT", (-0.5, -0.9, 1.5), (0, 0, 0), emitted=3.0, spot_angle=1.0, spot_blend=0.3, radius=0.05),
-        scenes.lamp("AREA", (0, 0, 1.9), emitted=4.0, size=(0.5, 0.3), spread=2.0),
-        scenes.lamp("SUN", (1, -3, 2), emitted=0.5, angle=0.01),
-        things=(scenes.Thing(scenes.sphere("Ball", 0.25, 8), GLASSY, balls),), world=World((0.1, 0.2, 0.3)))
-
 
 def test_two_renders_are_equal_to_the_bit(session):
-    scene = rich_scene()
+    scene = scenes.rich()
     first = picture_of(session, scene, samples=3)
     session.forget()
     assert np.array_equal(first, picture_of(session, scene, samples=3))
 
 
 def test_a_fresh_session_and_a_fresh_scene_give_the_same_bits(session):
-    first = picture_of(session, rich_scene(), samples=2)
+    first = picture_of(session, scenes.rich(), samples=2)
     other = Session()
-    second = picture_of(other, rich_scene(), samples=2)
+    second = picture_of(other, scenes.rich(), samples=2)
     other.close()
     assert np.array_equal(first, second)
 
 
 def test_other_slices_give_the_same_bits(session, monkeypatch):
-    first = picture_of(session, rich_scene(), samples=1)
+    first = picture_of(session, scenes.rich(), samples=1)
     device = session._opened()[0].call(lambda device: device)
     monkeypatch.setattr(device_module, "FIRST_SLICE", 512)
     monkeypatch.setattr(device_module, "SLICE_SECONDS", 1e-9)
     monkeypatch.setattr(device, "_per_second", {})
     session.forget()
-    film = film_of(session, rich_scene(), samples=1)
+    film = film_of(session, scenes.rich(), samples=1)
     assert film.stats["counts"]["gather/cones"] > 2
     assert np.array_equal(first, film.planes["Combined"])
 
 
 def test_another_seed_gives_another_picture(session):
-    scene = rich_scene()
+    scene = scenes.rich()
     assert not np.array_equal(picture_of(session, scene), picture_of(session, scene, seed=1))
 
 
@@ -147,7 +134,7 @@ def test_another_resolution_needs_new_voxels(session, rendered):
 
 
 def test_counts(session):
-    scene = rich_scene()
+    scene = scenes.rich()
     counts = film_of(session, scene, samples=2).stats["counts"]
     assert (counts["triangles"], counts["lights"], counts["samples"]) == (scene.n_triangles, 4, 2)
     assert counts["voxels"] > 1000

@@ -13,7 +13,6 @@ from svo_engine.scene.types import Camera, Image, Light, Material, Scene, World
 from tests import scenes
 from tests.on_gpu import picture_of
 
-GLASSY = Material("Glassy", (0.7, 0.5, 0.3), roughness=0.2, metallic=0.5, emission=(0.1, 0, 0))
 CAMERA = Camera("Camera", scenes.look((0, -4, 1)), (64, 48))
 
 
@@ -49,7 +48,7 @@ def mirrored_x(scene: Scene) -> Scene:
     return placed_anew(scene, flip @ scene.instances.world_from_object, lambda m: flip @ m @ flip)
 
 
-@pytest.mark.parametrize("material", [scenes.WHITE, GLASSY], ids=["diffuse", "glossy"])
+@pytest.mark.parametrize("material", [scenes.WHITE, scenes.GLOSSY], ids=["diffuse", "glossy"])
 def test_a_mirrored_scene_gives_the_mirrored_picture(session, material):
     """Normals of an instance with a negative scale point outwards too."""
     ball = scenes.Thing(scenes.sphere("Ball", 0.8, 12), material, (scenes.moved(-0.3, 0, 0),))

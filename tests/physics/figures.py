@@ -152,23 +152,11 @@ def scaled(session: Session, scale: float) -> float:
     return float((np.abs(other - usual) / np.maximum(usual, 1e-6 * usual.mean())).max())
 
 
-def rich_scene() -> Scene:
-    """Every kind of lamp, a glossy ball twice, a sky."""
-    glossy = Material("Glossy", (0.7, 0.5, 0.3), roughness=0.2, metallic=0.5, emission=(0.1, 0, 0))
-    balls = (scenes.moved(0.5, 0.2, 0.25), scenes.moved(0.6, -0.4, 0.25))
-    return scenes.cornell(
-        scenes.lamp("POINT", (0.4, -0.3, 1.7), emitted=2.0, radius=0.1),
-        scenes.lamp("SPOT", (-0.5, -0.9, 1.5), (0, 0, 0), emitted=3.0, spot_angle=1.0, spot_blend=0.3, radius=0.05),
-        scenes.lamp("AREA", (0, 0, 1.9), emitted=4.0, size=(0.5, 0.3), spread=2.0),
-        scenes.lamp("SUN", (1, -3, 2), emitted=0.5, angle=0.01),
-        things=(scenes.Thing(scenes.sphere("Ball", 0.25, 8), glossy, balls),), world=World((0.1, 0.2, 0.3)))
-
-
 def unrepeatable(session: Session) -> float:
     """Share of numbers that another session finds otherwise."""
     other = Session()
     try:
-        return float((shot(session, rich_scene(), samples=2) != shot(other, rich_scene(), samples=2)).mean())
+        return float((shot(session, scenes.rich(), samples=2) != shot(other, scenes.rich(), samples=2)).mean())
     finally:
         other.close()
 

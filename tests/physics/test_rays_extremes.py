@@ -12,7 +12,6 @@ from svo_engine.gpu import device as device_module
 from svo_engine.scene.types import Camera, Material, World
 from tests import scenes
 from tests.passes.test_hard_scenes import HARD, lamps_in_odd_places
-from tests.physics.figures import rich_scene
 from tests.rays import shot
 
 
@@ -29,13 +28,13 @@ def test_a_kilometre_lit_by_a_megawatt_is_finite(session):
 
 
 def test_work_that_is_cut_otherwise_gives_the_same_bits(session, monkeypatch):
-    first = shot(session, rich_scene(), samples=2)
+    first = shot(session, scenes.rich(), samples=2)
     assert np.isfinite(first).all() and first.min() >= 0
     monkeypatch.setattr(device_module, "FIRST_SLICE", 512)
     monkeypatch.setattr(device_module, "SLICE_SECONDS", 1e-9)
     monkeypatch.setattr(session._opened()[0].call(lambda device: device), "_per_second", {})
     session.forget()
-    assert np.array_equal(first, shot(session, rich_scene(), samples=2))
+    assert np.array_equal(first, shot(session, scenes.rich(), samples=2))
 
 
 def test_another_seed_gives_other_noise_of_the_same_mean(session):
