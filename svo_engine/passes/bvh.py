@@ -18,6 +18,7 @@ from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..gpu.texels import Texels
 from ..scene import layouts
+from ..scene.bounds import placed_boxes
 from ..scene.types import Mesh
 from .upload import GpuScene
 from .voxelize import scan
@@ -108,11 +109,11 @@ def build_meshes(device: Device, meshes: tuple[Mesh, ...]) -> MeshTrees:
 
 def build_bvh(device: Device, gpu_scene: GpuScene, trees: MeshTrees) -> Bvh:
     """Both levels of `gpu_scene`, whose meshes are those of `trees`. GpuError names the buffer that does not fit."""
-    scope, inst = device.scope(), gpu_scene.scene.instances
-    mesh = np.sort(inst.mesh, kind="stable")
+    scope, mesh = device.scope(), gpu_scene.scene.instances.mesh[gpu_scene.placing.order]
     world_from_object, object_from_world = _matrices(gpu_scene)
-    low, high = _world_boxes(world_from_object, trees.low[mesh], trees.high[mesh])
-    rows = np.zeros(len(inst), layouts.dtype(layouts.BVH_INSTANCE))
+    boxes = placed_boxes(np.stack([trees.low, trees.high], 1)[mesh], world_from_object)
+    low, high = boxes.astype("f4").swapaxes(0, 1)  # rounded to nearest: rays allow for that
+    rows = np.zeros(len(mesh), layouts.dtype(layouts.BVH_INSTANCE))
     rows["inv_x"], rows["inv_y"], rows["inv_z"] = np.moveaxis(object_from_world, 1, 0)
     rows["root"] = trees.roots[mesh]
     rows["extent"] = np.maximum(np.abs(trees.low), np.abs(trees.high)).max(1, initial=0)[mesh]
@@ -136,22 +137,13 @@ def _matrices(gpu_scene: GpuScene) -> tuple[np.ndarray, np.ndarray]:
     World space is relative to the scene's centre. An instance squeezed flat has no inverse: it is given a hundred
     thousandth of its width as thickness.
     """
-    inst = gpu_scene.scene.instances
-    placed = inst.world_from_object[np.argsort(inst.mesh, kind="stable"), :3].copy()
+    placed = gpu_scene.scene.instances.world_from_object[gpu_scene.placing.order, :3].copy()
     placed[:, :, 3] -= gpu_scene.centre_ws
     u, scale, vt = np.linalg.svd(placed[:, :, :3])
     scale = np.maximum(scale, 1e-5 * scale[:, :1])
     placed[:, :, :3] = u * scale[:, None] @ vt
     inverse = np.moveaxis(vt, 1, 2) / np.where(scale > 0, scale, 1)[:, None] @ np.moveaxis(u, 1, 2)
     return placed, np.concatenate([inverse, -inverse @ placed[:, :, 3:]], 2)
-
-
-def _world_boxes(world_from_object: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Boxes (n, 3) f4 around placed boxes (n, 3), rounded to nearest: rays allow for that."""
-    centre, half = (low.astype("f8") + high) / 2, (high.astype("f8") - low) / 2
-    centre_ws = np.einsum("nij,nj->ni", world_from_object[:, :, :3], centre) + world_from_object[:, :, 3]
-    half_ws = np.einsum("nij,nj->ni", np.abs(world_from_object[:, :, :3]), half)
-    return (centre_ws - half_ws).astype("f4"), (centre_ws + half_ws).astype("f4")
 
 
 def _morton_order(low: np.ndarray, high: np.ndarray, tree: np.ndarray) -> np.ndarray:

@@ -20,17 +20,23 @@ def mesh_boxes(meshes: Sequence[Mesh]) -> np.ndarray:
     return boxes
 
 
+def placed_boxes(boxes: np.ndarray, world_from_object: np.ndarray) -> np.ndarray:
+    """(n, 2, 3) f8: world-space boxes around boxes (n, 2, 3) that matrices (n, 3 or 4, 4) place."""
+    low, high = boxes.astype("f8").swapaxes(0, 1)
+    linear, offset = world_from_object[:, :3, :3], world_from_object[:, :3, 3]
+    centre = (linear @ ((low + high) / 2)[..., None])[..., 0] + offset
+    half = (np.abs(linear) @ ((high - low) / 2)[..., None])[..., 0]
+    return np.stack([centre - half, centre + half], 1)
+
+
 def bounds(boxes: np.ndarray, instances: Instances) -> tuple[np.ndarray, np.ndarray]:
     """World-space box of all instances of meshes with those boxes: (lowest, highest), each (3,) f8, metres.
 
     Zeros where there is nothing.
     """
-    boxes, matrices = boxes[instances.mesh], instances.world_from_object
+    boxes = boxes[instances.mesh]
     is_there = np.isfinite(boxes).all((1, 2))
     if not is_there.any():
         return np.zeros(3), np.zeros(3)
-    (low, high), matrices = boxes[is_there].swapaxes(0, 1), matrices[is_there]
-    centre, half = (low + high) / 2, (high - low) / 2
-    centre_ws = (matrices[:, :3, :3] @ centre[..., None])[..., 0] + matrices[:, :3, 3]
-    half_ws = (np.abs(matrices[:, :3, :3]) @ half[..., None])[..., 0]
-    return (centre_ws - half_ws).min(0), (centre_ws + half_ws).max(0)
+    placed = placed_boxes(boxes[is_there], instances.world_from_object[is_there])
+    return placed[:, 0].min(0), placed[:, 1].max(0)

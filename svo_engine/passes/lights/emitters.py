@@ -39,9 +39,8 @@ def emitters_of(gpu_scene: GpuScene) -> Emitters:
     radiance = np.array([_mean_radiance(scene, material) for material in scene.materials] or [0.0])
     if radiance.any():
         radiance[_area_shares(scene) > EASY] = 0.0
-    order = np.argsort(inst.mesh, kind="stable")
-    first_triangle = np.cumsum([0] + [len(mesh.triangles) for mesh in scene.meshes])
-    first_work = np.cumsum([0] + [len(scene.meshes[m].triangles) for m in inst.mesh[order]])
+    order, first_triangle = gpu_scene.placing.order, gpu_scene.placing.shapes.first_triangle
+    first_work = np.cumsum([0, *np.diff(first_triangle)[inst.mesh[order]]])
     glowing = [(number, i) for number, i in enumerate(order) if radiance[_slots(scene, i)].any()]
     found = {number: _radiances(scene, i, radiance) for number, i in _smallest(scene, glowing)}
     parts = []

@@ -32,6 +32,7 @@ class Placing:
 
     centre_ws  (3,) f8, metres; subtracted from every position, so that f4 does far away
     extent     metres, the longest side of the box around everything
+    order      (n_instances,) i8, the device's order: place i holds instance order[i], meshes one after another
     """
 
     scope: GpuScope
@@ -41,6 +42,7 @@ class Placing:
     n_work: int
     centre_ws: np.ndarray
     extent: float
+    order: np.ndarray
 
 
 def place(device: Device, shapes: Shapes, instances: Instances) -> Placing:
@@ -63,7 +65,7 @@ def place(device: Device, shapes: Shapes, instances: Instances) -> Placing:
     draws = tuple(Draw(int(f), int(c), int(shapes.first_triangle[m]), int(n_triangles[m]))
                   for m, f, c in zip(found, firsts, counts, strict=True) if n_triangles[m])
     return Placing(scope, shapes, {**shapes.buffers, **buffers}, draws, int(work[-1]), centre,
-                   float((high - low).max()))
+                   float((high - low).max()), order)
 
 
 def _slots(instances: Instances, n_slots: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
