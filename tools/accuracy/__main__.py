@@ -8,11 +8,9 @@ core alone; `page` needs Pillow and flip-evaluator. Other sizes and samples have
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
@@ -20,7 +18,7 @@ from svo_engine.bench import host, references
 from svo_engine.render import Session
 from svo_engine.scene import store
 
-from .plan import ROOT, SAMPLES, Plan, sample_scenes, size_of
+from .plan import ROOT, SAMPLES, Plan, make_parser, parse, plan_of, sample_scenes
 
 
 def make_references(plan: Plan) -> None:
@@ -72,21 +70,12 @@ STEPS: dict[str, Callable[[Plan], None]] = {"references": make_references, "rend
 
 def main() -> int:
     """Run the asked steps."""
-    parser = argparse.ArgumentParser("tools.accuracy", description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} (default: all)")
+    parser = make_parser("tools.accuracy", __doc__, STEPS, ROOT / "out/accuracy", ROOT / "docs/benchmarks")
     parser.add_argument("--scenes", nargs="+", default=sample_scenes())
-    parser.add_argument("--size", default="400x300", metavar="WxH")
-    parser.add_argument("--samples", nargs="+", type=int, default=[16, 256], metavar="N", help="of ours")
-    parser.add_argument("--reference-samples", type=int, default=1024, metavar="N", help="of Cycles")
-    parser.add_argument("--out", type=Path, default=ROOT / "out/accuracy", metavar="DIR")
-    parser.add_argument("--docs", type=Path, default=ROOT / "docs/benchmarks", metavar="DIR")
-    options = parser.parse_args()
-    if unknown := set(options.steps) - set(STEPS):
-        parser.error(f"there is no step {', '.join(sorted(unknown))}")
-    plan = Plan(tuple(options.scenes), size_of(options.size), tuple(options.samples), options.reference_samples,
-                options.out, options.docs)
+    options = parse(parser, STEPS)
+    plan = plan_of(options, options.scenes, options.out)
     plan.out.mkdir(parents=True, exist_ok=True)
-    for step in options.steps or STEPS:
+    for step in options.steps:
         STEPS[step](plan)
     return 0
 

@@ -7,7 +7,6 @@ Pillow. Both read what the steps `references` and `render` of tools.accuracy lef
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import sys
@@ -20,7 +19,7 @@ from svo_engine.scene import store
 from svo_engine.scene.camera import make_view
 from svo_engine.scene.types import Scene
 from svo_engine.settings import RenderSettings
-from tools.accuracy.plan import ROOT, Plan, sample_scenes, size_of
+from tools.accuracy.plan import ROOT, make_parser, parse, plan_of, sample_scenes
 
 from .stages import STAGES
 
@@ -30,22 +29,13 @@ WARM_FRAMES = 9  # an idle graphics card has slowed down
 
 def main() -> int:
     """Run the asked steps."""
-    parser = argparse.ArgumentParser("tools.overview", description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} (default: both)")
+    parser = make_parser("tools.overview", __doc__, STEPS, ROOT / "out", ROOT / "docs")
     parser.add_argument("--scene", default="cornell_suzanne_area")
-    parser.add_argument("--size", default="400x300", metavar="WxH")
-    parser.add_argument("--samples", nargs="+", type=int, default=[16, 256], metavar="N", help="of tools.accuracy's")
-    parser.add_argument("--reference-samples", type=int, default=1024, metavar="N", help="of Cycles")
-    parser.add_argument("--out", type=Path, default=ROOT / "out", metavar="DIR")
-    parser.add_argument("--docs", type=Path, default=ROOT / "docs", metavar="DIR")
-    options = parser.parse_args()
-    if unknown := set(options.steps) - set(STEPS):
-        parser.error(f"there is no step {', '.join(sorted(unknown))}")
-    plan = Plan(sample_scenes(), size_of(options.size), tuple(options.samples), options.reference_samples,
-                options.out / "accuracy", options.docs)
-    if "render" in (options.steps or STEPS):
+    options = parse(parser, STEPS)
+    plan = plan_of(options, sample_scenes(), options.out / "accuracy")
+    if "render" in options.steps:
         render(store.load(plan.scene(options.scene)), plan.size, options.out / "overview.npz")
-    if "page" in (options.steps or STEPS):
+    if "page" in options.steps:
         from .page import write_page
 
         write_page(plan, options.scene, options.out / "overview.npz")
