@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from itertools import count
 from typing import Any
 
 from ..errors import SceneError
@@ -39,8 +41,7 @@ def ladder_rows(session: Session, name: str, scene: Scene, reference: Reference 
         if rung.values.get("time_limit"):
             continue
         for kind in ("light", "camera"):
-            again = repeat(lambda kind=kind, rung=rung:  # type: ignore[misc]
-                           shooter.shoot(scene, rung.values, anew=KINDS[kind]))
+            again = repeat(partial(shooter.shoot, scene, rung.values, anew=KINDS[kind]))
             yield row(rung, again, reference, kind=kind, **circumstances)
 
 
@@ -52,18 +53,22 @@ def edit_rows(session: Session, name: str, scene: Scene, rung: Rung, size: tuple
                      "renderer": renderer}
     for edit_name, edit in possible(scene).items():
         lines.step(f"{name}: {renderer}, {edit_name}")
-        numbers, anew = iter(range(1, 1000)), KINDS["all" if edit_name == "everything" else "camera"]
-
-        def shoot(edit: Edit = edit, numbers: Iterator[int] = numbers, is_camera: bool = edit_name == "camera",
-                  anew: tuple[str, ...] | None = anew) -> Shot:
-            number = next(numbers)
-            shooter.shoot(scene, values)  # the frame before the edit
-            return shooter.shoot(edit(scene, number), values, camera(scene, number) if is_camera else None, anew)
-
-        shoot()
-        shots = repeat(shoot)
+        shots = _edit_shots(shooter, scene, values, edit_name, edit)
         yield Edited(**circumstances, edit=edit_name, seconds=median(shots), n_runs=len(shots),
                      parts=pack(stages(shots[-1].parts)))
+
+
+def _edit_shots(shooter: Shooter, scene: Scene, values: Mapping[str, Any], name: str, edit: Edit) -> list[Shot]:
+    """Timed frames after one edit, each another change; a first one is thrown away, so that all is compiled."""
+    numbers, anew = count(1), KINDS["all" if name == "everything" else "camera"]
+
+    def shoot() -> Shot:
+        number = next(numbers)
+        shooter.shoot(scene, values)  # the frame before the edit
+        return shooter.shoot(edit(scene, number), values, camera(scene, number) if name == "camera" else None, anew)
+
+    shoot()
+    return repeat(shoot)
 
 
 class Shooter:
