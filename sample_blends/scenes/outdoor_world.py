@@ -31,7 +31,7 @@ def _stones(upright: shapes.Mesh, lintel: shapes.Mesh) -> None:
     step = 2 * pi / N_STONES
     for i in range(N_STONES):
         if i not in (9, 10):
-            _stand(upright, RING_RADIUS, i * step + pi * (i % 2))
+            _stand(upright, RING_RADIUS, i * step, turn=pi * (i % 2))
         if i not in (1, 8, 9, 10, 11):
             _stand(lintel, RING_RADIUS * cos(step / 2), (i + 0.5) * step, lift=LINTEL_HEIGHT)
     trilithon = stage.group("Trilithon", [stage.place(upright, (-0.72, 0.0, -0.05)), stage.place(
@@ -48,9 +48,12 @@ def _stones(upright: shapes.Mesh, lintel: shapes.Mesh) -> None:
         stage.place(pebble, (x, y, _height(x, y) - 0.05), (0.2, 0.3, angle), 0.5 + 0.25 * (i % 4))
 
 
-def _stand(stone: shapes.Mesh, radius: float, angle: float, lift: float = -0.05) -> None:
-    """Upright at (radius, angle) around the centre, its broad side towards it, its foot `lift` above the level."""
-    stage.place(stone, (radius * cos(angle), radius * sin(angle), lift), (0.0, 0.0, angle - pi / 2))
+def _stand(stone: shapes.Mesh, radius: float, angle: float, lift: float = -0.05, turn: float = 0.0) -> None:
+    """Upright at (radius, angle) around the centre, its broad side towards it, its foot `lift` above the level.
+
+    turn: about itself
+    """
+    stage.place(stone, (radius * cos(angle), radius * sin(angle), lift), (0.0, 0.0, angle - pi / 2 + turn))
 
 
 def _stone(name: str, size: shapes.Point, material: shapes.Material, columns: int = 32, rows: int = 24) -> shapes.Mesh:

@@ -11,6 +11,9 @@ import bpy
 import numpy as np
 import pytest
 
+from svo_engine.blender.cli import extract_scene
+from svo_engine.scene.bounds import mesh_boxes, placed_boxes
+
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_blends"
 
 
@@ -108,6 +111,16 @@ def test_it_needs_no_other_file(name):
     open_scene(SAMPLES / f"{name}.blend")
     assert bpy.utils.blend_paths(packed=False) == []
     assert len(bpy.data.libraries) == 0
+
+
+@pytest.mark.parametrize("name", promises())
+def test_no_two_things_fill_the_same_place(name):
+    """They would shadow each other, or not, as rounding falls. A millimetre apart is apart."""
+    scene = extract_scene(SAMPLES / f"{name}.blend", None)
+    inst = scene.instances
+    boxes = placed_boxes(mesh_boxes(scene.meshes)[inst.mesh], inst.world_from_object)
+    coincide = np.triu(np.abs(boxes[:, None] - boxes).max((2, 3)) < 1e-3, 1)
+    assert [(inst.names[i], inst.names[j]) for i, j in np.argwhere(coincide)] == []
 
 
 @pytest.mark.parametrize("name", promises())
