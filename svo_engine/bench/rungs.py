@@ -23,6 +23,7 @@ SAMPLES = {"rays": (1, 2, 4, 16, 64, 256), "cycles": (1, 4, 16, 64, 256), "cycle
 TIME_LIMITS = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0)  # s
 CONES = ("64", "128", "256")  # voxels a side
 CONE_SAMPLES = 4
+DRAFT = {"samples": 1, "cache_resolution": "64", "denoising_quality": "fast"}  # as quick as rays can be
 MANY_SAMPLES = 65536  # more than a time limit lets through
 
 RUNS = 3
@@ -70,7 +71,8 @@ def ladder(renderer: str, samples: Sequence[int] = (), time_limits: Sequence[flo
                   for n in samples or SAMPLES[renderer]]
     if renderer in PEERS:
         return by_samples
-    return by_samples + [Rung("rays", f"{t:g} s", {**ours, "samples": MANY_SAMPLES, "time_limit": t}, 4)
+    drafts = [] if samples else [Rung("rays", "draft", {**ours, **DRAFT}, 1)]
+    return drafts + by_samples + [Rung("rays", f"{t:g} s", {**ours, "samples": MANY_SAMPLES, "time_limit": t}, 4)
                          for t in time_limits]
 
 
