@@ -12,6 +12,7 @@
 const float BLACK = 1e-4;  // keeps the quotient finite where there is no light
 
 const float OUTSIDE = -1.0;
+const float NEVER_QUIET = 1e30;
 
 layout(local_size_x = 64) in;
 
@@ -24,13 +25,19 @@ uniform ivec2 u_size;
 
 shared float squares[64];
 
+// By its bits: compilers may take it that comparisons meet no NaN.
+bool is_finite(float x)
+{
+    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
+}
+
 float squared_error(ivec2 pixel)
 {
     vec3 I = texelFetch(u_film, ivec3(pixel, PLANE_COMBINED), 0).rgb / n_samples(pixel);
     vec3 A = texelFetch(u_film, ivec3(pixel, PLANE_HALF), 0).rgb * 2.0 / n_samples(pixel);
     vec3 difference = abs(I - A);
     float e = (difference.r + difference.g + difference.b) / (BLACK + sqrt(max(I.r + I.g + I.b, 0.0)));
-    return e * e;
+    return is_finite(e) ? e * e : NEVER_QUIET;
 }
 
 void main()

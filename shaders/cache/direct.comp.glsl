@@ -19,13 +19,16 @@ void main()
     uint side = u_first + gl_GlobalInvocationID.x;
     if (side >= u_end)
         return;
-    Surface s = surface_of_side(side);
+    Surface s = surface_of_side(side), mean = s;  // how near a lamp is, is told from the mean position
+    mean.position = surfels[side / 2u].position;
+    mean.lift = s.position - mean.position;
     vec3 E = vec3(0.0), E_still = vec3(0.0);
     for (int i = 0; i < N_POINTS * n_draws(); i++) {
         int k = i % n_draws();
-        LightDraw draw = draw_light(k, s, uint(i / n_draws()), hash(side));
+        bool is_lamp = k < n_lamp_draws(N_TREE_DRAWS);
+        LightDraw draw = draw_light(k, is_lamp ? mean : s, uint(i / n_draws()), hash(side));
         float NoL = max(dot(s.normal, draw.wi), 0.0);
-        if (k < n_lamp_draws(N_TREE_DRAWS))
+        if (is_lamp)
             E += NoL * draw.E_perp;
         else
             E_still += NoL * draw.E_perp * balance(float(N_POINTS) * draw.pdf, float(N_RAYS) * NoL / PI);

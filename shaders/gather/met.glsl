@@ -6,6 +6,8 @@
 #include "bind/principled.glsl"
 #include "bind/surface.glsl"
 
+const float CLOSE = 8.0;  // voxels up to which a diffuse ray sees all that it meets lit exactly
+
 uniform uint u_sample;
 uniform uint u_n_samples;  // of the picture, rounded up to a power of 2
 
@@ -41,9 +43,13 @@ vec3 arriving(Met met, uint sample_index, uint seed)
     return met.side == NOTHING ? E : E + cache[cache_entry(INDIRECT, met.side)].rgb;
 }
 
-// Light that a met surface reflects against a diffuse ray: what it mirrors is taken as its share of what arrives from
-// everywhere.
-vec3 reflected(Met met, uint seed)
+// Light that a met surface reflects against a diffuse ray which went t metres: what it mirrors is taken as its share of what
+// arrives from everywhere. Far away the edges of shadows may be a voxel wide, so lamps are taken from the cache too; but not
+// those of a tree, of which it holds a few draws: their noise would stay.
+vec3 reflected(Met met, float t, uint seed)
 {
-    return mean_albedo(materials[met.surface.material], met.shading) / PI * arriving(met, number, seed);
+    bool is_far = !HAS_TREE && met.side != NOTHING && t * u_voxels_per_metre > CLOSE;
+    vec3 E = is_far ? cache[cache_entry(LAMPS, met.side)].rgb + cache[cache_entry(INDIRECT, met.side)].rgb
+                    : arriving(met, number, seed);
+    return mean_albedo(materials[met.surface.material], met.shading) / PI * E;
 }

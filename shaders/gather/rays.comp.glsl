@@ -49,7 +49,7 @@ vec3 diffuse_light(Surface s, uint seed, out vec3 found)
             Met met = met_at(hit, d);
             if (met.shading.emission != vec3(0.0))
                 found += met.shading.emission * emitter_weight(s, d, hit, pdf);
-            E += reflected(met, ray_seed);
+            E += reflected(met, hit.t, ray_seed);
         } else {
             found += world_radiance(d, 0.0) * world_weight(s, d, pdf);
         }

@@ -17,7 +17,6 @@ from tests.surfels import Lit, lit_surfels
 
 N = 32
 UNIT = 1e-4  # octahedral normals: shaders/lib/math.glsl
-START = 0.05  # voxels between a side and its rays: shaders/bind/cache.glsl
 MAX_ALBEDO = 0.9999  # shaders/octree/average.comp.glsl
 TOP, BOTTOM = 0, 1  # sides of a level surfel
 
@@ -40,7 +39,7 @@ def test_a_point_lamp(device):
     """I cos / d^2 at each surfel's own position, so that no resolution is lost."""
     at = np.array([0.3, 0.2, 0.7])
     lit = lit_floor(device, scenes.lamp("POINT", at, emitted=5.0))
-    to = at - lit.surfels.positions - (0, 0, START * lit.surfels.grid.voxel_size)
+    to = at - lit.surfels.positions
     expected = 5 * to[:, 2] / np.linalg.norm(to, axis=1) ** 3
     assert np.allclose(lit.lamps[:, TOP, 0], expected, rtol=3 * UNIT, atol=5 * UNIT)
 
@@ -51,10 +50,9 @@ def test_a_rectangle(device):
     lamp = scenes.lamp("AREA", (0.2, 0.2, z), (0.2, 0.2, 0), emitted=2.0, size=(0.6, 0.4))
     lit = lit_floor(device, lamp, points=points)
     p = lit.surfels.positions
-    height = z - START * lit.surfels.grid.voxel_size
-    expected = 2 * pi * rectangle_share(p, low, high, height)
+    expected = 2 * pi * rectangle_share(p, low, high, z)
     x, y = (part.ravel() for part in np.meshgrid(np.linspace(-0.1, 0.5, 24), np.linspace(0, 0.4, 24)))
-    terms = 2 * 0.24 * height**2 / ((x - p[:, :1]) ** 2 + (y - p[:, 1:2]) ** 2 + height**2) ** 2
+    terms = 2 * 0.24 * z**2 / ((x - p[:, :1]) ** 2 + (y - p[:, 1:2]) ** 2 + z**2) ** 2
     error, sigma = lit.lamps[:, TOP, 0] - expected, terms.std(1) / np.sqrt(points) + UNIT * expected
     assert (np.abs(error) < 5 * sigma).all()
     assert abs(error.mean()) < 4 * np.sqrt((sigma**2).mean() / len(sigma)) + UNIT
