@@ -15,13 +15,14 @@ from .gpu.kept import Kept
 from .gpu.thread import GpuThread
 from .passes.adaptive import is_done, make_progress
 from .passes.bvh import Bvh, build_bvh, build_meshes
-from .passes.cache import LightCache, light_cache
+from .passes.cache import LightCache, light_cache, link
 from .passes.debug import make_attribute, show_surfels, show_voxels
 from .passes.denoise import read_picture
 from .passes.denoise.choice import make_denoiser, wanted
 from .passes.gather import Incident, gather_cones, gather_rays, make_incident
 from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
+from .passes.lights.glow import make_glow
 from .passes.octree import Octree, build_octree
 from .passes.planes import planes_for
 from .passes.raster import GBuffer, make_targets, raster
@@ -86,8 +87,9 @@ def _trees(stage: Stage, gpu_scene: GpuScene) -> Bvh:
 
 
 def _lights(stage: Stage, gpu_scene: GpuScene) -> Lights:
-    return stage("lights", lambda device, *_: make_lights(device, gpu_scene), gpu_scene.placing, gpu_scene.surfaces,
-                 gpu_scene.lamps, gpu_scene.sky, gpu_scene.scene.world)
+    glow = stage("glow", lambda device, *_: make_glow(device, gpu_scene), gpu_scene.placing, gpu_scene.surfaces,
+                 gpu_scene.sky, gpu_scene.scene.world)
+    return stage("lights", lambda device, *_: make_lights(device, gpu_scene, glow), gpu_scene.lamps, glow)
 
 
 def _octree(stage: Stage, gpu_scene: GpuScene, n: int) -> Octree:
@@ -97,9 +99,11 @@ def _octree(stage: Stage, gpu_scene: GpuScene, n: int) -> Octree:
 
 def _cache(stage: Stage, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights,
            settings: RenderSettings) -> LightCache:
-    amounts = settings.cache_rays, settings.injection_samples, settings.bounces
-    return stage("cache", lambda device, *_: light_cache(device, gpu_scene, octree, bvh, lights, *amounts), octree, bvh,
-                 lights, gpu_scene.scene.world, amounts)
+    amounts = settings.cache_rays, settings.injection_samples
+    links = stage("links", lambda device, *_: link(device, gpu_scene, octree, bvh, lights, *amounts), octree, bvh,
+                  lights.glow, gpu_scene.scene.world, amounts)
+    return stage("cache", lambda device, *_: light_cache(device, gpu_scene, links, bvh, lights, settings.bounces),
+                 links, lights, settings.bounces)
 
 
 def _voxels(stage: Stage, gpu_scene: GpuScene, settings: RenderSettings) -> Voxels:

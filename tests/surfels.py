@@ -11,8 +11,9 @@ import numpy as np
 
 from svo_engine.gpu.device import Device
 from svo_engine.passes.bvh import build_bvh, build_meshes
-from svo_engine.passes.cache import PARTS, light_cache
+from svo_engine.passes.cache import PARTS, light_cache, link
 from svo_engine.passes.lights import make_lights
+from svo_engine.passes.lights.glow import make_glow
 from svo_engine.passes.octree import Octree, build_octree
 from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.passes.voxelize import Grid
@@ -97,8 +98,10 @@ def lit_surfels(device: Device, scene: Scene, n: int = 32, rays: int = 16, point
 
         gpu_scene = keep(upload(device, scene))
         octree, trees = keep(build_octree(device, gpu_scene, n)), keep(build_meshes(device, scene.meshes))
-        bvh, lights = keep(build_bvh(device, gpu_scene, trees)), keep(make_lights(device, gpu_scene))
-        cache = keep(light_cache(device, gpu_scene, octree, bvh, lights, rays, points, bounces))
+        bvh, glow = keep(build_bvh(device, gpu_scene, trees)), keep(make_glow(device, gpu_scene))
+        lights = keep(make_lights(device, gpu_scene, glow))
+        links = keep(link(device, gpu_scene, octree, bvh, lights, rays, points))
+        cache = keep(light_cache(device, gpu_scene, links, bvh, lights, bounces))
         surfels, n_bounces = read_surfels(gpu_scene, octree), cache.n_bounces()
         bits = cache.entries.read(16 * PARTS * 2 * len(surfels.rows)) if len(surfels.rows) else b""
     parts = np.frombuffer(bits, "f4").astype("f8").reshape(PARTS, len(surfels.rows), 2, 4)[..., :3]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    light that is drawn on each side of each surfel, and the first radiance that it reflects.
 // Formula:    L = rho / pi E_lamps, E from N_POINTS times all draws with traced shadows
-// In:         Surfels, lights, triangles, world; Cache: STILL, what N_RAYS rays found
-// Out:        Cache: LAMPS, RADIANCE, zeros into INDIRECT; emitters and the world added to STILL
+// In:         Surfels, lights, triangles, world; Found: what N_RAYS rays found
+// Out:        Cache: LAMPS, STILL, RADIANCE, zeros into INDIRECT
 // Invocation: one side of one surfel
 
 #include "bind/lights.glsl"
@@ -10,6 +10,8 @@
 
 const int N_POINTS = 4;
 const int N_RAYS = 16;  // of cache/link, which find emitters and the world too
+
+layout(std430) readonly buffer Found { vec4 found_light[]; };
 
 uniform uint u_first;
 uniform uint u_end;
@@ -35,7 +37,7 @@ void main()
     }
     E /= float(N_POINTS);
     cache[cache_entry(LAMPS, side)] = vec4(E, 0.0);
-    cache[cache_entry(STILL, side)] += vec4(E_still / float(N_POINTS), 0.0);
+    cache[cache_entry(STILL, side)] = vec4(found_light[side].rgb + E_still / float(N_POINTS), 0.0);
     cache[cache_entry(INDIRECT, side)] = vec4(0.0);
     cache[cache_entry(RADIANCE, side)] = vec4(surfels[side / 2u].albedo / PI * E, 0.0);
 }

@@ -4,7 +4,7 @@
 // Formula:    E_still = pi / N sum w L(w_i) of what emissive surfaces and the world send, w_i distributed as cos; w is the
 //             weight of what cache/direct draws as well [Veach95]
 // In:         Surfels, world, triangles, lights
-// Out:        Links: the side that each ray hits, or NOTHING; Cache: STILL
+// Out:        Links: the side that each ray hits, or NOTHING; Found: E_still
 // Invocation: one in SPLIT rays of one side of one surfel
 
 #include "bind/lights.glsl"
@@ -15,6 +15,7 @@ const int N_POINTS = 4;           // of cache/direct
 const bool HAS_EMISSION = false;  // any material that sends out light
 const uint SPLIT = 4u;            // invocations a side: few sides keep a large device busy too
 
+layout(std430) buffer Found { vec4 found_light[]; };  // of each side
 layout(std430) writeonly buffer Links { uint links[]; };  // N_RAYS a side: the first of all sides, the second of all ...
 
 uniform uint u_first;
@@ -69,8 +70,8 @@ void main()
     barrier();
     if (index >= u_end || part != 0u)
         return;
-    vec3 E = u_first_ray > 0u ? cache[cache_entry(STILL, side)].rgb : vec3(0.0);
+    vec3 E = u_first_ray > 0u ? found_light[side].rgb : vec3(0.0);
     for (uint i = 0u; i < SPLIT; i++)
         E += found[lane + i];
-    cache[cache_entry(STILL, side)] = vec4(E, 0.0);
+    found_light[side] = vec4(E, 0.0);
 }

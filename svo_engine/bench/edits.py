@@ -61,7 +61,7 @@ def object_place(scene: Scene, number: int) -> Scene:
 
 # What is made anew, as Session.forget takes it: no name means everything, None nothing. "light": all from voxels on
 KINDS: dict[str, tuple[str, ...] | None] = {
-    "all": (), "light": ("voxelize", "light", "octree", "lights", "cache"), "camera": None}
+    "all": (), "light": ("voxelize", "light", "octree", "glow", "lights", "links", "cache"), "camera": None}
 EDITS: dict[str, Edit] = {
     "nothing": nothing, "camera": nothing, "lamp's power": lamp_power, "lamp moved": lamp_place,
     "material's colour": material_color, "object moved": object_place, "everything": nothing}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Octree -> LightCache: what each side of each surfel reflects, the lights' light and all bounces."""
+"""Octree -> Links -> LightCache: what each side of each surfel sees, then what it reflects: light and all bounces."""
 
 from __future__ import annotations
 
@@ -18,14 +18,15 @@ from .upload import GpuScene
 from .voxelize import GEOMETRY, GRID, MATERIALS
 
 WORLD = ("u_world_radiance", "u_env_from_world", "u_has_env")
-CACHE = ("Octree", "Surfels", "Cache")
+SIDES = ("Octree", "Surfels")
+CACHE = (*SIDES, "Cache")
 CACHE_UNIFORMS = (*GRID, *TREE, "u_n_sides")
 PARTS = 5  # vec4 a side, see bind/cache.glsl
 
-LINK = Pass(("cache/link.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS, "Links"),
+LINK = Pass(("cache/link.comp.glsl",), (*GEOMETRY, *MATERIALS, *SIDES, *LIGHTS, "Links", "Found"),
             textures=("u_env", *TRACE, *LIGHT_TEXTURES),
             uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS, "u_first_ray", "u_end_ray"))
-DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS),
+DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS, "Found"),
               textures=("u_env", *TRACE, *LIGHT_TEXTURES),
               uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS))
 BOUNCE = Pass(("cache/bounce.comp.glsl",), (*CACHE, "Links", "Changes"),
@@ -35,6 +36,21 @@ TOLERANCE = 5e-3  # of the brightest radiance: bounces end when none changes mor
 SPLIT = 4  # invocations that share the rays of a side
 ROUND = 256  # rays of a side at once: Mesa's software renderer ends an invocation's loops after 65,535 turns in all
 BATCH = 16  # sweeps between two looks at whether any more are needed: those that are not end at once
+
+
+@dataclass(frozen=True, eq=False)
+class Links:
+    """What the n_rays rays of every side hit. They stay while lamps are edited.
+
+    found   the light that they saw, weighed against n_points times all draws
+    """
+
+    scope: GpuScope
+    octree: Octree
+    links: Any
+    found: Any
+    n_rays: int
+    n_points: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,36 +65,41 @@ class LightCache:
 
     def resources(self) -> dict[str, Any]:
         """What a pass that includes bind/cache.glsl needs."""
-        return _resources(self.octree, self.entries)
+        return {**_octree(self.octree), "Cache": self.entries}
 
     def n_bounces(self) -> int:
         """Bounces that were done until nothing changed any more; waits for the device."""
         return _n_done(self.changes, self.max_bounces)
 
 
-def light_cache(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights, n_rays: int,
-                n_points: int, max_bounces: int) -> LightCache:
-    """Light the surfels: what is drawn, then bounces until the change is below TOLERANCE or `max_bounces` were done."""
+def link(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights, n_rays: int,
+         n_points: int) -> Links:
+    """Trace the rays of all sides. Of `lights` the lamps do not matter."""
     scope, n_sides = device.scope(), 2 * octree.n_surfels
+    links = scope.buffer("cache links", 4 * n_rays * n_sides)
+    found = scope.buffer("found light", 16 * n_sides)
+    constants = {**_constants(gpu_scene, n_rays, n_points), **bvh.constants(), **lights.glow.constants(),
+                 "HAS_EMISSION": gpu_scene.emission_unit > 0, "SPLIT": SPLIT}
+    for first in range(0, n_rays, ROUND):
+        device.dispatch(LINK, SPLIT * n_sides, constants, **_resources(gpu_scene, octree, bvh, lights), Links=links,
+                        Found=found, u_first_ray=first, u_end_ray=min(first + ROUND, n_rays))
+    return Links(scope, octree, links, found, n_rays, n_points)
+
+
+def light_cache(device: Device, gpu_scene: GpuScene, links: Links, bvh: Bvh, lights: Lights,
+                max_bounces: int) -> LightCache:
+    """Light the surfels: what is drawn, then bounces until the change is below TOLERANCE or `max_bounces` were done."""
+    scope, octree, n_sides = device.scope(), links.octree, 2 * links.octree.n_surfels
     entries = scope.buffer("light cache", 16 * PARTS * n_sides)
     changes = scope.buffer("changes", 4 * max_bounces, clear=True)
-    constants = {"HAS_ALPHA": gpu_scene.has_alpha, "HAS_TEXTURES": gpu_scene.has_textures, "N_RAYS": n_rays,
-                 "N_POINTS": n_points, **bvh.constants(), **lights.constants()}
-    cache = _resources(octree, entries)
-    resources = {**gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(), **bvh.resources(), **cache,
-                 **lights.resources()}
-    with device.scope() as scratch:
-        links = scratch.buffer("cache links", 4 * n_rays * n_sides)
-        has_emission = {"HAS_EMISSION": gpu_scene.emission_unit > 0}
-        for first in range(0, n_rays, ROUND):
-            device.dispatch(LINK, SPLIT * n_sides, {**constants, **has_emission, "SPLIT": SPLIT}, **resources,
-                            Links=links, u_first_ray=first, u_end_ray=min(first + ROUND, n_rays))
-        device.dispatch(DIRECT, n_sides, constants, **resources)
-        for sweep in range(max_bounces):
-            if sweep and sweep % BATCH == 0 and _n_done(changes, sweep) < sweep:
-                break
-            device.dispatch(BOUNCE, n_sides, {"N_RAYS": n_rays}, **cache, Links=links, Changes=changes, u_sweep=sweep,
-                            u_tolerance=TOLERANCE)
+    constants = {**_constants(gpu_scene, links.n_rays, links.n_points), **bvh.constants(), **lights.constants()}
+    device.dispatch(DIRECT, n_sides, constants, **_resources(gpu_scene, octree, bvh, lights), Cache=entries,
+                    Found=links.found)
+    for sweep in range(max_bounces):
+        if sweep and sweep % BATCH == 0 and _n_done(changes, sweep) < sweep:
+            break
+        device.dispatch(BOUNCE, n_sides, {"N_RAYS": links.n_rays}, **_octree(octree), Cache=entries, Links=links.links,
+                        Changes=changes, u_sweep=sweep, u_tolerance=TOLERANCE)
     return LightCache(scope, octree, entries, changes, max_bounces)
 
 
@@ -89,5 +110,16 @@ def _n_done(buffer: Any, n: int) -> int:
     return int(np.argmax(is_small)) + 1 if is_small.any() else n
 
 
-def _resources(octree: Octree, entries: Any) -> dict[str, Any]:
-    return {**octree.resources(), "Surfels": octree.surfels, "Cache": entries, "u_n_sides": 2 * octree.n_surfels}
+def _constants(gpu_scene: GpuScene, n_rays: int, n_points: int) -> dict[str, bool | int]:
+    return {"HAS_ALPHA": gpu_scene.has_alpha, "HAS_TEXTURES": gpu_scene.has_textures, "N_RAYS": n_rays,
+            "N_POINTS": n_points}
+
+
+def _octree(octree: Octree) -> dict[str, Any]:
+    return {**octree.resources(), "Surfels": octree.surfels, "u_n_sides": 2 * octree.n_surfels}
+
+
+def _resources(gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights) -> dict[str, Any]:
+    """What a pass needs that lights the sides."""
+    return {**gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(), **_octree(octree), **bvh.resources(),
+            **lights.resources()}

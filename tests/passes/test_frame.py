@@ -83,24 +83,28 @@ def test_a_moved_camera_needs_new_light_if_highlights_are_stored(session, render
     assert stages_run(film) == {LIGHT, GATHER}
 
 
+LIT = {"cache/direct", "gather/rays"}
+ALL = {"bvh/nearest", "octree/accumulate", "cache/link", *LIT}
+
+
 def made(session, scene) -> set[str]:
     """The stages of which anything ran on the way to the picture of `scene` by rays."""
     counts = film_of(session, scene, method="rays", cache_resolution="32", cache_rays=1).stats["counts"]
-    return {name for name in ("bvh/nearest", "octree/accumulate", "cache/link", "gather/rays") if counts.get(name)}
+    return {name for name in ALL if counts.get(name)}
 
 
 @pytest.mark.parametrize(("edit", "expected"), [
-    (lambda s: replace(s, lights=(replace(s.lights[0], emitted=(9, 8, 7)),)), {"cache/link", "gather/rays"}),
-    (lambda s: replace(s, world=World((1, 1, 0))), {"cache/link", "gather/rays"}),
+    (lambda s: replace(s, lights=(replace(s.lights[0], emitted=(9, 8, 7)),)), LIT),
+    (lambda s: replace(s, world=World((1, 1, 0))), {"cache/link", *LIT}),
     (lambda s: replace(s, materials=(replace(s.materials[0], base_color=(0.1, 0.2, 0.3)), *s.materials[1:])),
-     {"octree/accumulate", "cache/link", "gather/rays"}),
+     {"octree/accumulate", "cache/link", *LIT}),
     (copy.deepcopy, {"gather/rays"}),
 ], ids=["a lamp's power", "the world", "a colour", "nothing, loaded again"])
 def test_an_edit_costs_its_own_part(session, edit, expected):
     """And gives what a session gives that has seen nothing else."""
     scene = scenes.cornell()
     session.forget()
-    assert made(session, scene) == {"bvh/nearest", "octree/accumulate", "cache/link", "gather/rays"}
+    assert made(session, scene) == ALL
     assert made(session, edit(scene)) == expected
     settings = {"method": "rays", "cache_resolution": "32", "cache_rays": 1}
     after = picture_of(session, edit(scene), **settings)

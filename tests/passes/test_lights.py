@@ -8,6 +8,7 @@ import pytest
 
 from svo_engine.passes.lights import emitters, make_lights
 from svo_engine.passes.lights.emitters import emitters_of
+from svo_engine.passes.lights.glow import make_glow
 from svo_engine.passes.lights.sky import sky_table
 from svo_engine.passes.lights.tree import leaf_of_light, light_tree
 from svo_engine.passes.upload import linear_pixels, upload
@@ -223,9 +224,9 @@ def sky(request, device):
     def of(kind, expression, **inputs):
         gpu_scene = upload(device, scene)
         with gpu_scene.scope:
-            lights = make_lights(device, gpu_scene)
-            with lights.scope:
-                bound = lights.resources()
+            glow = make_glow(device, gpu_scene)
+            with glow.scope:
+                bound = glow.bound
                 textures = {"u_sky": bound["u_sky"], "u_env": gpu_scene.sky.texture}
                 names = ("u_world_radiance", "u_env_from_world", "u_has_env", "u_sky_size", "u_world_from_env")
                 uniforms = {name: {**gpu_scene.world(), **bound}[name] for name in names}
@@ -286,7 +287,8 @@ def test_a_few_lamps_are_drawn_each_by_itself(device, n, own, in_tree):
     more = [scenes.lamp("SUN", (0, 0, 1)), scenes.lamp("POINT", (0, 0, 2), emitted=0.0)]
     gpu_scene = upload(device, scenes.scene(scenes.Thing(scenes.floor()), lights=(*lamps, *more)))
     with gpu_scene.scope:
-        lights = make_lights(device, gpu_scene)
-        with lights.scope:
+        glow = make_glow(device, gpu_scene)
+        lights = make_lights(device, gpu_scene, glow)
+        with lights.scope, glow.scope:
             assert (lights.n_own, lights.n_in_tree) == (own + 1, in_tree)
             assert lights.constants()["HAS_TREE"] == (in_tree > 0)

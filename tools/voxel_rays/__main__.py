@@ -21,8 +21,9 @@ from svo_engine.errors import GpuError
 from svo_engine.gpu.device import Device
 from svo_engine.gpu.passes import Pass
 from svo_engine.passes.bvh import TRACE, TRACE_UNIFORMS, build_bvh, build_meshes
-from svo_engine.passes.cache import CACHE, CACHE_UNIFORMS, WORLD, light_cache
+from svo_engine.passes.cache import CACHE, CACHE_UNIFORMS, WORLD, light_cache, link
 from svo_engine.passes.lights import make_lights
+from svo_engine.passes.lights.glow import make_glow
 from svo_engine.passes.octree import build_octree
 from svo_engine.passes.upload import upload
 from svo_engine.passes.voxelize import GEOMETRY, MATERIALS
@@ -82,8 +83,10 @@ def measure(device: Device, scene: Scene, n: int, n_points: int) -> Iterator[tup
 
         gpu_scene = keep(upload(device, scene))
         bvh = keep(build_bvh(device, gpu_scene, keep(build_meshes(device, scene.meshes))))
-        octree, lights = keep(build_octree(device, gpu_scene, n)), keep(make_lights(device, gpu_scene))
-        cache = keep(light_cache(device, gpu_scene, octree, bvh, lights, 16, 4, 12))
+        octree, glow = keep(build_octree(device, gpu_scene, n)), keep(make_glow(device, gpu_scene))
+        lights = keep(make_lights(device, gpu_scene, glow))
+        links = keep(link(device, gpu_scene, octree, bvh, lights, 16, 4))
+        cache = keep(light_cache(device, gpu_scene, links, bvh, lights, 12))
         scope = made.enter_context(device.scope())
         starts = scope.buffer("starts", seen_points(Traced(device, gpu_scene, bvh), n_points))
         found = scope.buffer("found", 16 * n_points)

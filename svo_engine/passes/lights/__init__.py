@@ -14,16 +14,13 @@ import numpy as np
 
 from ...gpu.device import Device
 from ...gpu.scope import GpuScope
-from ...scene import layouts
 from ...scene.types import Light
 from ..upload import GpuScene, light_rows
-from .emitters import emitters_of
-from .sky import sky_table
-from .tree import leaf_of_light, light_tree
+from .glow import EMITTER_DRAWS, Glow
+from .tree import light_tree
 
 FEW = 8  # lamps up to which each is drawn by itself
 TREE_DRAWS = 4  # of many lamps, at what the eye sees; one at what rays meet
-EMITTER_DRAWS = 2
 
 LIGHTS = ("Lights",)
 LIGHT_TEXTURES = ("u_light_nodes", "u_emitters", "u_sky")
@@ -32,14 +29,13 @@ LIGHT_UNIFORMS = ("u_lamp_tree", "u_emitter_tree", "u_n_emitters", "u_sky_size",
 
 @dataclass(frozen=True, eq=False)
 class Lights:
-    """bound: what the shaders read, by name. The counts say what there is to draw from."""
+    """bound: what the shaders read, by name. The counts say how many lamps there are to draw from."""
 
     scope: GpuScope
     bound: dict[str, Any]
     n_own: int
     n_in_tree: int
-    n_emitters: int
-    has_sky: bool
+    glow: Glow
 
     def resources(self) -> dict[str, Any]:
         """The buffers, textures and uniforms of bind/lights.glsl."""
@@ -47,38 +43,32 @@ class Lights:
 
     def constants(self) -> dict[str, bool | int | float]:
         """What is not there is not compiled."""
-        return {"N_LIGHTS": self.n_own, "HAS_TREE": self.n_in_tree > 0, "HAS_EMITTERS": self.n_emitters > 0,
-                "HAS_WORLD_DRAWS": self.has_sky, "N_TREE_DRAWS": TREE_DRAWS, "N_EMITTER_DRAWS": EMITTER_DRAWS}
+        return {"N_LIGHTS": self.n_own, "HAS_TREE": self.n_in_tree > 0, "N_TREE_DRAWS": TREE_DRAWS,
+                **self.glow.constants()}
 
     @property
     def n_draws(self) -> int:
         """Draws of each pixel and sample."""
-        return (self.n_own + TREE_DRAWS * (self.n_in_tree > 0) + EMITTER_DRAWS * (self.n_emitters > 0) + self.has_sky)
+        glow = self.glow
+        return self.n_own + TREE_DRAWS * (self.n_in_tree > 0) + EMITTER_DRAWS * (glow.n_emitters > 0) + glow.has_sky
 
     def counts(self) -> dict[str, int]:
         """For the frame's statistics."""
-        return {"lamps in tree": self.n_in_tree, "emitters": self.n_emitters, "draws": self.n_draws}
+        return {"lamps in tree": self.n_in_tree, "emitters": self.glow.n_emitters, "draws": self.n_draws}
 
 
-def make_lights(device: Device, gpu_scene: GpuScene) -> Lights:
-    """The lights of `gpu_scene` on the device. GpuError names the buffer that does not fit."""
-    scope, scene = device.scope(), gpu_scene.scene
-    own, many = _split([light for light in scene.lights if max(light.emitted) > 0])
-    emitters, sky = emitters_of(gpu_scene), sky_table(scene)
-    lamp_tree = light_tree(*_boxes(many, gpu_scene.centre_ws), np.array([_intensity(light) for light in many]))
-    emitter_tree = light_tree(emitters.low, emitters.high, emitters.intensity)
-    rows = np.zeros(len(emitters.work), layouts.dtype(layouts.EMITTER))
-    rows["work"], rows["instance"], rows["triangle"] = emitters.work, emitters.instance, emitters.triangle
-    rows["leaf"] = leaf_of_light(emitter_tree)
-    lamp_tree["light"] += len(own)
+def make_lights(device: Device, gpu_scene: GpuScene, glow: Glow) -> Lights:
+    """The lamps of `gpu_scene` on the device, beside all that glows. GpuError names the buffer that does not fit."""
+    scope = device.scope()
+    own, many = _split([light for light in gpu_scene.scene.lights if max(light.emitted) > 0])
+    tree = light_tree(*_boxes(many, gpu_scene.centre_ws), np.array([_intensity(light) for light in many]))
+    tree["light"] += len(own)
     bound = {
+        **glow.bound,
         "Lights": scope.buffer("drawn lamps", light_rows([*own, *many], gpu_scene.centre_ws)),
-        "u_light_nodes": scope.texels("light tree", np.concatenate([lamp_tree, emitter_tree])),
-        "u_emitters": scope.texels("emitters", rows), "u_sky": scope.texels("sky table", _whole_texels(sky)),
-        "u_lamp_tree": (0, len(lamp_tree) // 2), "u_emitter_tree": (len(lamp_tree), len(emitter_tree) // 2),
-        "u_n_emitters": len(rows), "u_sky_size": (0, 0) if sky is None else (sky.shape[1] - 1, sky.shape[0]),
-        "u_world_from_env": np.eye(3) if sky is None else np.linalg.inv(scene.world.env_from_world)}
-    return Lights(scope, bound, len(own), len(many), len(rows), sky is not None)
+        "u_light_nodes": scope.texels("light tree", np.concatenate([glow.tree, tree])),
+        "u_emitter_tree": (0, len(glow.tree) // 2), "u_lamp_tree": (len(glow.tree), len(tree) // 2)}
+    return Lights(scope, bound, len(own), len(many), glow)
 
 
 def _split(lamps: list[Light]) -> tuple[list[Light], list[Light]]:
@@ -108,9 +98,3 @@ def _intensity(lamp: Light) -> float:
     h = max(lamp.spread / 2, 1e-4)
     lobe = np.tan(h) / (np.tan(h) - h) if h < 0.4999 * np.pi else 1.0
     return mean * lamp.size[0] * lamp.size[1] * (np.pi / 4 if lamp.is_ellipse else 1.0) * lobe
-
-
-def _whole_texels(table: np.ndarray | None) -> np.ndarray:
-    """The table in a row, filled up to whole texels of four numbers."""
-    flat = np.zeros(0, "f4") if table is None else table.ravel()
-    return np.concatenate([flat, np.zeros(-len(flat) % 4 or 4 * (not len(flat)), "f4")])
