@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -181,7 +182,7 @@ class Session:
 
     def films(self, scene: Scene, view: View, settings: RenderSettings,
               should_stop: Callable[[], bool] = lambda: False, interval: float = 0.0) -> Iterator[Film]:
-        """Yield a better Film after each sample, or at most every `interval` seconds; always the last one.
+        """Yield a better Film after each sample, or at most every `interval` seconds: infinity gives the last one alone.
 
         should_stop is asked on the calling thread while the GPU works; when it says True, Cancelled is raised.
         Raises SceneError, ShaderError or GpuError with a sentence for the user.
@@ -189,7 +190,7 @@ class Session:
         thread, kept = self._opened()
 
         def read_films(device: Device) -> Iterator[Film]:
-            due = 0.0
+            due = 0.0 if math.isfinite(interval) else math.inf
             for film in render(scene, view, settings, device, kept):
                 if film.is_last or time.monotonic() >= due:
                     yield _read(film, device, scene, settings)

@@ -29,11 +29,14 @@ float importance(uint i, vec3 p, vec3 normal)
     return node.intensity * bound / max(max(d2, r2), 1e-12);
 }
 
-// Probability of the first child of node i; negative where nothing comes from either.
+// Probability of the first child of node i; negative where nothing comes from either. Just 0 or 1 where all comes from one:
+// a quotient may round to less on graphics cards, and whoever then drew the other would weigh its light ten millionfold.
 float first_probability(uvec2 tree, uint i, vec3 p, vec3 normal)
 {
     float first = importance(tree.x + 2u * i, p, normal), second = importance(tree.x + 2u * i + 1u, p, normal);
-    return first + second > 0.0 ? first / (first + second) : -1.0;
+    if (second == 0.0)
+        return first > 0.0 ? 1.0 : -1.0;
+    return min(first / (first + second), 1.0);
 }
 
 // A leaf of `tree` (its first node, its number of leaves) for a surface at p, u in [0, 1); or NO_LEAF.

@@ -29,9 +29,16 @@ vec3 turned_back(vec3 v, int axis)
     return axis == 0 ? v.zxy : axis == 1 ? v.yzx : v;
 }
 
+// Just zero for corners at one place: products are not contracted, else one would be rounded and the other not.
+vec3 exact_cross(vec3 u, vec3 v)
+{
+    precise vec3 uv = u.yzx * v.zxy, vu = u.zxy * v.yzx, n = uv - vu;
+    return n;
+}
+
 VoxelTriangle voxel_triangle(vec3 a, vec3 b, vec3 c, int n)
 {
-    vec3 normal = cross(b - a, c - a), size = abs(normal);
+    vec3 normal = exact_cross(b - a, c - a), size = abs(normal);
     int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     VoxelTriangle t;
     t.axis = axis;
