@@ -182,7 +182,7 @@ class Session:
 
     def films(self, scene: Scene, view: View, settings: RenderSettings,
               should_stop: Callable[[], bool] = lambda: False, interval: float = 0.0) -> Iterator[Film]:
-        """Yield a better Film after each sample, or at most every `interval` seconds: infinity gives the last one alone.
+        """Yield a better Film after each sample, or at most every `interval` seconds; math.inf: the last one alone.
 
         should_stop is asked on the calling thread while the GPU works; when it says True, Cancelled is raised.
         Raises SceneError, ShaderError or GpuError with a sentence for the user.

@@ -7,6 +7,7 @@ and run `python -m svo_engine.scene.layouts`.
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -81,6 +82,7 @@ CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6}
 
 
+@cache
 def dtype(struct: Fields) -> np.dtype:
     """The numpy dtype of `struct` with std430's offsets and its array stride."""
     names, formats, offsets, end, widest = [], [], [], 0, 4
