@@ -27,6 +27,7 @@ DRAFT = {"samples": 1, "cache_resolution": "64", "denoising_quality": "fast"}  #
 MANY_SAMPLES = 65536  # more than a time limit lets through
 
 RUNS = 3
+SHORT_RUNS = 11  # of what takes less than WARM_SECONDS: milliseconds jitter
 WARM_SECONDS = 0.3
 RUNS_SECONDS = 10.0  # once the runs of a rung have taken as long, no further one is begun
 
@@ -119,14 +120,14 @@ def expected(known: Sequence[tuple[float, float]], cost: float) -> float:
 def repeat(shoot: Callable[[], Shot]) -> list[Shot]:
     """RUNS shots, fewer where they take long.
 
-    Short ones are first shot for WARM_SECONDS without being counted: an idle graphics card has slowed down.
+    Short ones are SHORT_RUNS, first shot for WARM_SECONDS without being counted: an idle graphics card has slowed down.
     """
-    shots = [shoot()]
+    shots, n = [shoot()], RUNS
     if (seconds := shots[0].seconds) < WARM_SECONDS:
         while (seconds := seconds + shoot().seconds) < WARM_SECONDS:
             pass
-        shots = []
-    while len(shots) < RUNS and sum(shot.seconds for shot in shots) < RUNS_SECONDS:
+        shots, n = [], SHORT_RUNS
+    while len(shots) < n and sum(shot.seconds for shot in shots) < RUNS_SECONDS:
         shots.append(shoot())
     return shots
 

@@ -67,7 +67,8 @@ class Viewport:
         if self._worker.shown is None:
             return "", "Preparing"
         job, film = self._worker.shown
-        return next(iter(job.scene.warnings), ""), f"Sample {film.n_samples}/{job.settings.samples}"
+        told = (*job.scene.warnings, *film.stats.get("limits", ()))
+        return next(iter(told), ""), f"Sample {film.n_samples}/{job.settings.samples}"
 
     def poll(self) -> bool:
         """Ask Blender for a redraw if there is something new; False once Blender has freed the engine."""

@@ -25,8 +25,8 @@ class Cuda:
 
     def __init__(self) -> None:
         try:
-            self._api = ctypes.CDLL(_NAMES.get(sys.platform, ""))
-        except OSError as error:
+            self._api = ctypes.CDLL(_NAMES[sys.platform])
+        except (OSError, KeyError) as error:
             raise GpuError(f"CUDA was not found: {error}") from error
         number, n, context = ctypes.c_int(), ctypes.c_uint(), ctypes.c_void_p()
         self.call("cuInit", 0)
@@ -66,7 +66,7 @@ class Cuda:
         finally:
             self.call("cuCtxPopCurrent_v2", ctypes.byref(ctypes.c_void_p()))
 
-    def release(self) -> None:
+    def close(self) -> None:
         """Give the context back."""
         self.call("cuDevicePrimaryCtxRelease_v2", self.number)
 

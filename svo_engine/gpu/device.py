@@ -16,6 +16,7 @@ from ..errors import Cancelled, GpuError, ShaderError
 from . import glsl
 from .context import create_context
 from .cuda import Cuda
+from .oidn import OidnDevice
 from .passes import Pass
 from .pool import Pool
 from .profiler import Profiler
@@ -63,6 +64,11 @@ class Device:
             return Cuda()
         except GpuError:
             return None
+
+    @cached_property
+    def denoising(self) -> OidnDevice:
+        """Where denoisers run. GpuError if there is no library for it."""
+        return OidnDevice(self.cuda)
 
     @property
     def n_bytes(self) -> int:
@@ -140,8 +146,9 @@ class Device:
         for program in self._programs.values():
             program.release()
         self.profiler.release()
-        if self.cuda:
-            self.cuda.release()
+        for name in ("denoising", "cuda"):
+            if part := vars(self).get(name):  # which nobody may have asked for
+                part.close()
         self.ctx.release()
 
     def _bound(self, pass_: Pass, constants: Constants | None, resources: Mapping[str, Any]) -> Program:

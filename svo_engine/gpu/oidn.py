@@ -72,90 +72,100 @@ def _paths() -> Iterator[str]:
             yield str(Path(folder) / "lib" / name)
 
 
+class OidnDevice:
+    """What filters run on: the card that draws, if that is one with CUDA, or else where the library likes to run.
+
+    GpuError if there is no library or it cannot.
+    """
+
+    def __init__(self, cuda: Cuda | None) -> None:
+        self.api, self.cuda = library(), cuda
+        if self.api is None:
+            raise GpuError("Open Image Denoise was not found")
+        if cuda:
+            number, stream = ctypes.c_int(cuda.number), _P()
+            self.handle = self.api.oidnNewCUDADevice(ctypes.byref(number), ctypes.byref(stream), 1)
+        else:
+            self.handle = self.api.oidnNewDevice(_ANY_DEVICE)
+        self.api.oidnSetDeviceBool(self.handle, b"setAffinity", False)  # other work wants the same processors
+        self.api.oidnCommitDevice(self.handle)
+        self.check()
+
+    def check(self) -> None:
+        """Raise GpuError with what the library has to say of its last error, if there was one."""
+        message = _TEXT()
+        if self.api.oidnGetDeviceError(self.handle, ctypes.byref(message)):
+            raise GpuError(f"Open Image Denoise failed: {(message.value or b'').decode(errors='replace')}")
+
+    def close(self) -> None:
+        """Give it back, after all of its filters."""
+        self.api.oidnReleaseDevice(self.handle)
+
+
 class Oidn:
-    """The filter for pictures of one size: on the card that draws, with CUDA, or else where the library likes to run.
+    """The filter for pictures of one size, in buffers of OpenGL's: one for each of IMAGES.
 
     is_clean  whether the guides have no noise of their own
     GpuError if the library cannot.
     """
 
-    def __init__(self, cuda: Cuda | None, buffers: Sequence[moderngl.Buffer], size: tuple[int, int], quality: str,
+    def __init__(self, device: OidnDevice, images: Sequence[moderngl.Buffer], size: tuple[int, int], quality: str,
                  is_clean: bool) -> None:
-        self._api = library()
-        if self._api is None:
-            raise GpuError("Open Image Denoise was not found")
-        self._size, self._gl, self._cuda = size, buffers, cuda
+        self._device, self._api, self._size, self._images = device, device.api, size, images
         self._n_bytes = size[0] * size[1] * _RGBA
+        self._addresses: list[int] = []
+        self._buffers: list[Any] = []
         with ExitStack() as made:
-            self._device = self._make_device(made)
-            self._shared = made.enter_context(cuda.share(buffers)) if cuda else None
-            self._filter = self._own(made, "Filter", self._api.oidnNewFilter(self._device, b"RT"))
+            self._shared = made.enter_context(device.cuda.share(images)) if device.cuda else None
+            self._filter = self._api.oidnNewFilter(device.handle, b"RT")
+            made.callback(self._api.oidnReleaseFilter, self._filter)
             self._api.oidnSetFilterBool(self._filter, b"hdr", True)
             self._api.oidnSetFilterBool(self._filter, b"cleanAux", is_clean)
             self._api.oidnSetFilterInt(self._filter, b"quality", QUALITIES[quality])
-            self._pointers: list[int] = []
             self._views = made.enter_context(ExitStack())
-            self._buffers: list[Any] = []
-            if not cuda:
-                self._view([self._api.oidnNewBuffer(self._device, self._n_bytes) for _ in IMAGES])
-            self._check()
+            if not self._shared:
+                self._view([self._api.oidnNewBuffer(device.handle, self._n_bytes) for _ in IMAGES])
+            device.check()
             self._made = made.pop_all()
 
     def run(self, pixels: np.ndarray, staging: moderngl.Buffer) -> None:
-        """Fill `pixels` (height, width, 4) f4 with the first of the buffers, filtered by the others.
+        """Fill `pixels` (height, width, 4) f4 with the first of the images, filtered by the others.
 
         staging  a buffer for the host, of the same size
         """
         if self._shared:
-            with self._shared.mapped() as pointers:
-                if pointers != self._pointers:
-                    self._pointers = pointers
-                    self._view([self._api.oidnNewSharedBuffer(self._device, p, self._n_bytes) for p in pointers])
+            with self._shared.mapped() as addresses:
+                if addresses != self._addresses:
+                    self._addresses = addresses
+                    self._view([self._api.oidnNewSharedBuffer(self._device.handle, address, self._n_bytes)
+                                for address in addresses])
                 self._execute()
-            self._gl[0].ctx.copy_buffer(staging, self._gl[0])
+            self._images[0].ctx.copy_buffer(staging, self._images[0])
             staging.read_into(pixels)
             return
-        for gl, buffer in zip(reversed(self._gl), reversed(self._buffers), strict=True):
-            gl.read_into(pixels)
+        for image, buffer in zip(reversed(self._images), reversed(self._buffers), strict=True):
+            image.read_into(pixels)
             self._api.oidnWriteBuffer(buffer, 0, self._n_bytes, pixels.ctypes.data)
         self._execute()
         self._api.oidnReadBuffer(self._buffers[0], 0, self._n_bytes, pixels.ctypes.data)
-        self._check()
+        self._device.check()
 
     def close(self) -> None:
         """Give all back."""
         self._made.close()
 
-    def _make_device(self, made: ExitStack) -> Any:
-        if self._cuda:
-            number, stream = ctypes.c_int(self._cuda.number), _P()
-            device = self._api.oidnNewCUDADevice(ctypes.byref(number), ctypes.byref(stream), 1)
-        else:
-            device = self._api.oidnNewDevice(_ANY_DEVICE)
-        self._own(made, "Device", device)
-        self._api.oidnSetDeviceBool(device, b"setAffinity", False)  # other work wants the same processors
-        self._api.oidnCommitDevice(device)
-        return device
-
-    def _own(self, made: ExitStack, kind: str, thing: Any) -> Any:
-        made.callback(getattr(self._api, f"oidnRelease{kind}"), thing)
-        return thing
-
     def _view(self, buffers: list[Any]) -> None:
         """Filter from and into these."""
         self._views.close()
-        self._buffers = [self._own(self._views, "Buffer", buffer) for buffer in buffers]
+        self._buffers = buffers
+        for buffer in buffers:
+            self._views.callback(self._api.oidnReleaseBuffer, buffer)
         width, height = self._size
-        for name, buffer in (*zip(IMAGES, self._buffers, strict=True), ("output", self._buffers[0])):
+        for name, buffer in (*zip(IMAGES, buffers, strict=True), ("output", buffers[0])):
             self._api.oidnSetFilterImage(self._filter, name.encode(), buffer, _FLOAT3, width, height, 0, _RGBA,
                                          _RGBA * width)
         self._api.oidnCommitFilter(self._filter)
 
     def _execute(self) -> None:
         self._api.oidnExecuteFilter(self._filter)
-        self._check()
-
-    def _check(self) -> None:
-        message = _TEXT()
-        if self._api.oidnGetDeviceError(self._device, ctypes.byref(message)):
-            raise GpuError(f"Open Image Denoise failed: {(message.value or b'').decode(errors='replace')}")
+        self._device.check()

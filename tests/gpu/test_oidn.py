@@ -9,7 +9,7 @@ import pytest
 from svo_engine.errors import GpuError
 from svo_engine.gpu import oidn
 from svo_engine.gpu.cuda import Cuda
-from svo_engine.gpu.oidn import IMAGES, QUALITIES, Oidn
+from svo_engine.gpu.oidn import IMAGES, QUALITIES, Oidn, OidnDevice
 
 SIZE = 96, 80
 HEIGHT_WIDTH = SIZE[::-1]
@@ -38,7 +38,9 @@ def filtered(device, color: np.ndarray, albedo: np.ndarray, quality: str = "high
         for buffer, data in zip(buffers, (color, *(np.pad(guide, ((0, 0), (0, 0), (0, 1))) for guide in guides)),
                                 strict=True):
             buffer.write(np.ascontiguousarray(data, "f4").tobytes())
-        made = Oidn(cuda, buffers, SIZE, quality, is_clean=True)
+        runs_on = OidnDevice(cuda)
+        scope.adopt(runs_on)
+        made = Oidn(runs_on, buffers, SIZE, quality, is_clean=True)
         scope.adopt(made)
         pixels = np.empty((*HEIGHT_WIDTH, 4), "f4")
         made.run(pixels, scope.pixels("staging", SIZE, for_host=True))
@@ -82,10 +84,10 @@ def test_a_software_renderer_has_no_cuda(device):
 def test_what_the_library_cannot_is_told_in_its_words(device, monkeypatch):
     monkeypatch.setitem(QUALITIES, "high", 99)
     with pytest.raises(GpuError, match=r"^Open Image Denoise failed: .+"):
-        Oidn(None, [], SIZE, "high", is_clean=True)
+        Oidn(device.denoising, [], SIZE, "high", is_clean=True)
 
 
 def test_a_missing_library_is_told(device, monkeypatch):
     monkeypatch.setattr(oidn, "library", lambda: None)
     with pytest.raises(GpuError, match="Open Image Denoise was not found"):
-        Oidn(None, [], SIZE, "high", is_clean=True)
+        OidnDevice(None)

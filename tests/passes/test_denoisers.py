@@ -8,6 +8,8 @@ import pytest
 
 from svo_engine.errors import GpuError
 from svo_engine.gpu import oidn
+from svo_engine.gpu.device import Device
+from svo_engine.gpu.oidn import OidnDevice
 from svo_engine.scene.types import World
 from svo_engine.settings import RenderSettings
 from tests import scenes
@@ -84,6 +86,7 @@ def test_a_software_renderer_takes_the_library_by_itself(session):
 ])
 def test_without_the_library_the_wavelet_filters(session, nothing_kept, monkeypatch, asked, told):
     wavelet = film_of(session, room(), **NOISY, denoiser="atrous").planes["Combined"]
+    monkeypatch.setattr(Device, "denoising", property(lambda _: OidnDevice(None)))
     monkeypatch.setattr(oidn, "library", lambda: None)
     film = film_of(session, room(), **NOISY, denoiser=asked)
     assert film.stats["limits"] == told

@@ -48,7 +48,7 @@ def make_denoiser(device: Device, size: tuple[int, int], asked: str, quality: st
     if asked == "openimagedenoise" or (asked == "automatic" and (device.cuda or device.profiler.is_software)):
         images = tuple(scope.pixels(label, size) for label in IMAGES)
         try:
-            oidn = Oidn(device.cuda, images, size, quality, is_clean)
+            oidn = Oidn(device.denoising, images, size, quality, is_clean)
             scope.adopt(oidn)
         except GpuError as error:
             limits += [f"The picture was filtered by the a-trous wavelet: {error}"] * (asked != "automatic")
