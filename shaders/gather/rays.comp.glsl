@@ -19,16 +19,12 @@ uniform uint u_first;
 uniform uint u_end;
 uniform uint u_seed;
 
-// Irradiance that is drawn. Diffuse rays find emitters and the world too, but no lamps.
+// Irradiance that is drawn.
 vec3 drawn_irradiance(Surface s, uint seed)
 {
     vec3 E = vec3(0.0);
-    for (int k = 0; k < n_draws(); k++) {
-        LightDraw draw = draw_light(k, s, number, seed);
-        float NoL = max(dot(s.normal, draw.wi), 0.0);
-        float pdf_rays = k < n_lamp_draws(N_TREE_DRAWS) ? 0.0 : float(N_RAYS) * NoL / PI;
-        E += NoL * balance(draw.pdf, pdf_rays) * draw.E_perp;
-    }
+    for (int k = 0; k < n_draws(); k++)
+        E += irradiance_of(draw_light(k, s, number, seed), k, s.normal, float(N_RAYS));
     return E;
 }
 
@@ -74,12 +70,17 @@ void main()
         Surface s = seen.surface;
         uint seed = hash(u_seed);
         number = point_number(pixel);
-        E_direct = drawn_irradiance(s, seed);
+        to_surface = distance(eye, s.position);
+        if (HAS_SPECULAR) {
+            Vertex v = vertex_at(s, seen.shading, seen.wo);
+            DrawnLight drawn = drawn_light(v, true, float(N_RAYS), seed);
+            E_direct = drawn.E;
+            specular = specular_light(v, drawn, hash(seed + 3u));
+        } else {
+            E_direct = drawn_irradiance(s, seed);
+        }
         if (HAS_INDIRECT)
             E_indirect = diffuse_light(s, seed, E_found);
-        to_surface = distance(eye, s.position);
-        if (HAS_SPECULAR)
-            specular = specular_light(s, seen.shading, seen.wo, hash(seed + 3u));
     }
     arrive(pixel, INCIDENT_DIFFUSE_DIRECT, vec4(E_direct, 0.0));
     arrive(pixel, INCIDENT_DIFFUSE_INDIRECT, vec4(E_indirect, 0.0));

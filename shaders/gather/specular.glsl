@@ -45,12 +45,27 @@ Surface turned_round(Surface s)
     return s;
 }
 
-// Light that is drawn on wo's side, and behind glass that spreads it, and leaves towards wo. One loop for both sides: every
-// place that traces rays takes compilers seconds.
-void drawn_light(Vertex v, uint seed, out vec3 reflected, out vec3 transmitted)
+// Light that draws find at a vertex: irradiance on wo's side, weighed against diffuse rays; radiance towards wo.
+struct DrawnLight {
+    vec3 E;
+    vec3 reflected;
+    vec3 transmitted;
+};
+
+// Share of draw k in the irradiance: n_rays diffuse rays find emitters and the world too, but no lamps.
+vec3 irradiance_of(LightDraw draw, int k, vec3 normal, float n_rays)
 {
-    reflected = transmitted = vec3(0.0);
-    int n_sides = v.bsdf.alpha <= SMOOTH ? 0 : HAS_GLASS && v.bsdf.glass != vec3(0.0) && is_bending(v.bsdf) ? 2 : 1;
+    float NoL = max(dot(normal, draw.wi), 0.0), pdf_rays = k < n_lamp_draws(N_TREE_DRAWS) ? 0.0 : n_rays * NoL / PI;
+    return NoL * balance(draw.pdf, pdf_rays) * draw.E_perp;
+}
+
+// Light that is drawn on wo's side, and behind glass that spreads it. One loop for both sides: every place that traces rays
+// takes compilers seconds. has_ground: whether the irradiance matters, which else none of a mirror's draws do.
+DrawnLight drawn_light(Vertex v, bool has_ground, float n_rays, uint seed)
+{
+    DrawnLight light = DrawnLight(vec3(0.0), vec3(0.0), vec3(0.0));
+    bool is_smooth = v.bsdf.alpha <= SMOOTH, is_spread_glass = HAS_GLASS && v.bsdf.glass != vec3(0.0) && is_bending(v.bsdf);
+    int n_sides = is_smooth ? int(has_ground) : is_spread_glass ? 2 : 1;
     Surface s = v.surface;
     for (int i = 0; i < n_sides * n_draws(); i++) {
         bool is_through = i >= n_draws();
@@ -59,12 +74,17 @@ void drawn_light(Vertex v, uint seed, out vec3 reflected, out vec3 transmitted)
         LightDraw draw = draw_light(is_through ? i - n_draws() : i, s, number, is_through ? hash(seed) : seed);
         if (draw.E_perp == vec3(0.0))
             continue;
+        if (!is_through)
+            light.E += irradiance_of(draw, i, s.normal, n_rays);
+        if (is_smooth)
+            continue;
         float pdf;
         vec3 f = evaluate_specular(v.bsdf, v.wo, draw.wi * v.frame, pdf);
         vec3 L = f * draw.E_perp * balance(draw.pdf, pdf);
-        reflected += is_through ? vec3(0.0) : L;
-        transmitted += is_through ? L : vec3(0.0);
+        light.reflected += is_through ? vec3(0.0) : L;
+        light.transmitted += is_through ? L : vec3(0.0);
     }
+    return light;
 }
 
 // Emission that a ray finds: of lamps, of the surface that it hits, or of the world.
@@ -99,20 +119,19 @@ Leg leg_along(Vertex v, vec3 d, float pdf, uint seed)
     return leg;
 }
 
-// One random path. Each vertex reflects or lets through, and goes on with twice its albedo as probability.
-SpecularLight specular_light(Surface s, Shading shading, vec3 wo, uint seed)
+// One random path from vertex v, whose draws are done. Each vertex reflects or lets through, and goes on with twice its albedo
+// as probability.
+SpecularLight specular_light(Vertex v, DrawnLight drawn_at_eye, uint seed)
 {
     SpecularLight light = no_light();
-    Vertex v = vertex_at(s, shading, wo);
+    light.glossy_direct = drawn_at_eye.reflected, light.transmission_direct = drawn_at_eye.transmitted;
     vec3 beta = vec3(1.0), direct = vec3(0.0), indirect = vec3(0.0);
     bool is_first_through = false;
     for (int n = 1; n < N_VERTICES && v.bsdf.glossy + v.bsdf.transmission != vec3(0.0); n++) {
-        vec3 reflected, transmitted;
-        drawn_light(v, seed + 3u, reflected, transmitted);
-        if (n == 1)
-            light.glossy_direct = reflected, light.transmission_direct = transmitted;
-        else
-            indirect += beta * (reflected + transmitted);
+        if (n > 1) {
+            DrawnLight found = drawn_light(v, false, 1.0, seed + 3u);
+            indirect += beta * (found.reflected + found.transmitted);
+        }
         vec2 chances = sobol_point(number, seed + 1u);
         Drawn drawn = sample_specular(v.bsdf, v.wo, sobol_point(number, seed + 2u), chances.x);
         vec3 d = v.frame * drawn.wi;

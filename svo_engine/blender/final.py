@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import dataclass, replace
 
 import bpy
@@ -25,21 +26,26 @@ _UPDATE_SECONDS = 0.3  # between pictures for whoever watches
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """What `render_frame` needs: all of Blender's scene data, already copied, except the cameras' places."""
+    """What `render_frame` needs: all of Blender's scene data, already copied, except the cameras' places.
+
+    extract_ms  what that took
+    """
 
     scene: Scene
     settings: RenderSettings
     border: tuple[float, float, float, float] | None
     layer: str
+    extract_ms: float
 
 
 def extract_frame(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> Frame:
     """Copy the scene, while Blender keeps it still. SceneError if it cannot be rendered."""
-    settings = _PREVIEW_SETTINGS
+    start, settings = time.perf_counter(), _PREVIEW_SETTINGS
     if not engine.is_preview:
         passes = passes_of(depsgraph.scene, depsgraph.view_layer)
         settings = replace(settings_of(depsgraph.scene), passes=passes)
-    return Frame(extract(depsgraph), settings, border(depsgraph.scene), depsgraph.view_layer.name)
+    scene, crop = extract(depsgraph), border(depsgraph.scene)
+    return Frame(scene, settings, crop, depsgraph.view_layer.name, (time.perf_counter() - start) * 1e3)
 
 
 def render_frame(engine: bpy.types.RenderEngine, frame: Frame) -> None:
@@ -62,16 +68,18 @@ def _render_view(engine: bpy.types.RenderEngine, frame: Frame, name: str, view: 
     """Render one view; whatever there is when it ends, also by an error or a cancel, stays in the result."""
     engine.update_stats("", "Preparing")
     result = engine.begin_result(0, 0, *view.size, layer=frame.layer, view=name)
-    film, interval = None, math.inf if bpy.app.background else _UPDATE_SECONDS
+    film, interval, hand_over_ms = None, math.inf if bpy.app.background else _UPDATE_SECONDS, 0.0
     try:
         for film in session.current.films(frame.scene, view, frame.settings, engine.test_break, interval):
+            start = time.perf_counter()
             present.fill_result(result, film, name)
             engine.update_result(result)
+            hand_over_ms += (time.perf_counter() - start) * 1e3
             engine.update_progress(film.n_samples / frame.settings.samples)
             engine.update_stats("", f"Sample {film.n_samples}/{frame.settings.samples}")
     finally:
         engine.end_result(result, cancel=film is None)
     if film is not None and not engine.is_preview:
-        session.keep_stats(film)
+        session.keep_stats(film, {"extract": frame.extract_ms, "hand over": hand_over_ms})
         for limit in film.stats.get("limits", ()):
             engine.report({"WARNING"}, limit)

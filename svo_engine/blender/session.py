@@ -15,10 +15,10 @@ current = Session()
 last_stats: dict[str, Any] = {}
 
 
-def keep_stats(film: Film) -> None:
-    """Make the stats of `film` the last ones."""
+def keep_stats(film: Film, times_ms: dict[str, float]) -> None:
+    """Make the stats of `film` the last ones, with what Blender's side took."""
     last_stats.clear()
-    last_stats.update(film.stats, n_samples=film.n_samples)
+    last_stats.update(film.stats, n_samples=film.n_samples, times_ms={**film.stats["times_ms"], **times_ms})
 
 
 def close() -> None:

@@ -91,6 +91,7 @@ class Device:
         its mip level; read and written) and uniform values. Slices change nothing but the time at which the device can
         be asked to stop.
         """
+        begin = time.perf_counter()
         pass_.check(set(resources))
         program = self._bound(pass_, constants, resources)
         group, first = program.local_size, 0
@@ -105,11 +106,12 @@ class Device:
                 program.handle.run(n_groups)
                 self.ctx.memory_barrier()
             self.calls["glFlush"]()  # the card begins: NVIDIA's driver else waits for more, a sixth of a quick frame
+            self.profiler.issued(time.perf_counter() - begin)
             if first > 0 or end < n:
                 self.ctx.finish()
                 rate = (end - first) / max(time.perf_counter() - start, 1e-6)
                 self._per_second[pass_.name] = min(rate, 8 * wanted / SLICE_SECONDS)
-            first = end
+            first, begin = end, time.perf_counter()
         self.profiler.counts[f"{pass_.name} invocations"] += n
 
     def clear(self, target: moderngl.Framebuffer) -> None:

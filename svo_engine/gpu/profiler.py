@@ -67,6 +67,11 @@ class Profiler:
         yield
         self.sums.host_ms[name] += (time.perf_counter() - start) * 1e3
 
+    def issued(self, seconds: float) -> None:
+        """Add to the host's time for telling the device what to do; a software renderer does it at once."""
+        if not self.is_software:
+            self.sums.host_ms["dispatch"] += seconds * 1e3
+
     def times_ms(self) -> dict[str, float]:
         """Milliseconds by name; GPU passes as `stage/entry`, host steps as plain words."""
         self._collect()
