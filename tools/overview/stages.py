@@ -51,7 +51,7 @@ STAGES = (
     Stage("cache", "after all", {**RAW, "view": "cache"}, combined, ("cache/link", "cache/bounce")),
     Stage("direct", "Direct light at the pixels, one sample", {**RAW, "passes": ("Diffuse Direct", "Diffuse Color")},
           direct),
-    Stage("gather", "With the light that four rays a pixel gather, one sample", RAW, combined, ("gather/",)),
+    Stage("gather", "With the light that two rays a pixel gather, one sample", RAW, combined, ("gather/",)),
     Stage("filter", "The same sample after the noise filter", {"samples": 1}, combined,
           ("resolve/", "denoise", "planes/")),
     Stage("samples_16", "16 samples", {"samples": 16}),
