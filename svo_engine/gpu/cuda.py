@@ -46,19 +46,19 @@ class Cuda:
     def share(self, buffers: Sequence[moderngl.Buffer]) -> Iterator[Shared]:
         """`buffers`, so that CUDA can map them."""
         resources = (ctypes.c_void_p * len(buffers))()
-        with self._current():
-            for i, buffer in enumerate(buffers):
-                self.call("cuGraphicsGLRegisterBuffer", ctypes.byref(resources, i * ctypes.sizeof(ctypes.c_void_p)),
-                          ctypes.c_uint(buffer.glo), 0)
         try:
+            with self.current():
+                for i, buffer in enumerate(buffers):
+                    self.call("cuGraphicsGLRegisterBuffer", ctypes.byref(resources, i * ctypes.sizeof(ctypes.c_void_p)),
+                              ctypes.c_uint(buffer.glo), 0)
             yield Shared(self, resources)
         finally:
-            with self._current():
-                for resource in resources:
+            with self.current():
+                for resource in filter(None, resources):
                     self.call("cuGraphicsUnregisterResource", ctypes.c_void_p(resource))
 
     @contextmanager
-    def _current(self) -> Iterator[None]:
+    def current(self) -> Iterator[None]:
         """CUDA's context, current on this thread."""
         self.call("cuCtxPushCurrent_v2", self._context)
         try:
@@ -81,7 +81,7 @@ class Shared:
     def mapped(self) -> Iterator[list[int]]:
         """Their addresses on the device, after all that OpenGL was told to do; OpenGL must leave them alone inside."""
         cuda, n = self._cuda, len(self._resources)
-        with cuda._current():
+        with cuda.current():
             cuda.call("cuGraphicsMapResources", n, self._resources, None)
             try:
                 yield [self._address(resource) for resource in self._resources]

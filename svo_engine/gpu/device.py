@@ -68,7 +68,12 @@ class Device:
     @cached_property
     def denoising(self) -> OidnDevice:
         """Where denoisers run. GpuError if there is no library for it."""
-        return OidnDevice(self.cuda)
+        try:
+            return OidnDevice(self.cuda)
+        except GpuError:
+            if self.cuda is None:
+                raise
+            return OidnDevice(None)  # the card is too old for the library
 
     @property
     def n_bytes(self) -> int:

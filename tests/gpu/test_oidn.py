@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from svo_engine.errors import GpuError
 from svo_engine.gpu import oidn
 from svo_engine.gpu.cuda import Cuda
+from svo_engine.gpu.device import Device
 from svo_engine.gpu.oidn import IMAGES, QUALITIES, Oidn, OidnDevice
 
 SIZE = 96, 80
@@ -72,6 +75,13 @@ def test_cuda_and_the_host_agree(device):
         pytest.skip("OpenGL draws without CUDA")
     color = noisy(chart(), 0.3)
     assert np.array_equal(filtered(device, color, chart(), cuda=device.cuda), filtered(device, color, chart()))
+
+
+@NEEDED
+def test_a_card_that_the_library_cannot_use_leaves_it_the_processor():
+    found = Device.denoising.func(SimpleNamespace(cuda=SimpleNamespace(number=99)))
+    assert found.cuda is None
+    found.close()
 
 
 def test_a_software_renderer_has_no_cuda(device):

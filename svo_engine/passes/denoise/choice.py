@@ -8,7 +8,7 @@ from typing import Any
 
 from ...errors import GpuError
 from ...gpu.device import Device
-from ...gpu.oidn import IMAGES, Oidn
+from ...gpu.oidn import IMAGES, Oidn, OidnDevice
 from ...gpu.scope import GpuScope
 from ...settings import RenderSettings
 
@@ -45,12 +45,21 @@ def make_denoiser(device: Device, size: tuple[int, int], asked: str, quality: st
     picture, *pair = (scope.texture(name, size, 4, "f4") for name in ("picture", "light", "spare"))
     staging = scope.pixels("staging", size, for_host=True)
     oidn, images, limits = None, tuple[Any, ...](), list[str]()
-    if asked == "openimagedenoise" or (asked == "automatic" and (device.cuda or device.profiler.is_software)):
-        images = tuple(scope.pixels(label, size) for label in IMAGES)
-        try:
-            oidn = Oidn(device.denoising, images, size, quality, is_clean)
+    try:
+        if runs_on := _runs_on(device, asked):
+            images = tuple(scope.pixels(label, size) for label in IMAGES)
+            oidn = Oidn(runs_on, images, size, quality, is_clean)
             scope.adopt(oidn)
-        except GpuError as error:
-            limits += [f"The picture was filtered by the a-trous wavelet: {error}"] * (asked != "automatic")
+    except GpuError as error:
+        limits += [f"The picture was filtered by the a-trous wavelet: {error}"] * (asked != "automatic")
     name = "openimagedenoise" if oidn else "atrous" if asked else ""
     return Denoiser(scope, picture, (pair[0], pair[1]), staging, images, name, oidn, tuple(limits))
+
+
+def _runs_on(device: Device, asked: str) -> OidnDevice | None:
+    """Where Open Image Denoise is to run; if the choice is free, only where pictures need not go elsewhere for it."""
+    is_software = device.profiler.is_software
+    if asked == "openimagedenoise" or (asked == "automatic" and (device.cuda or is_software)):
+        found = device.denoising
+        return found if asked == "openimagedenoise" or found.cuda or is_software else None
+    return None
