@@ -60,7 +60,7 @@ vec3 irradiance_of(LightDraw draw, int k, vec3 normal, float n_rays)
 }
 
 // Light that is drawn on wo's side, and behind glass that spreads it. One loop for both sides: every place that traces rays
-// takes compilers seconds. has_ground: whether the irradiance matters, which else none of a mirror's draws do.
+// takes compilers seconds. has_ground: whether the irradiance matters; if not, a smooth surface draws nothing.
 DrawnLight drawn_light(Vertex v, bool has_ground, float n_rays, uint seed)
 {
     DrawnLight light = DrawnLight(vec3(0.0), vec3(0.0), vec3(0.0));

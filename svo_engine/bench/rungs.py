@@ -73,8 +73,8 @@ def ladder(renderer: str, samples: Sequence[int] = (), time_limits: Sequence[flo
     if renderer in PEERS:
         return by_samples
     drafts = [] if samples else [Rung("rays", "draft", {**ours, **DRAFT}, 1)]
-    return drafts + by_samples + [Rung("rays", f"{t:g} s", {**ours, "samples": MANY_SAMPLES, "time_limit": t}, 4)
-                         for t in time_limits]
+    by_time = [Rung("rays", f"{t:g} s", {**ours, "samples": MANY_SAMPLES, "time_limit": t}, 4) for t in time_limits]
+    return drafts + by_samples + by_time
 
 
 def climb(rungs: Sequence[Rung], shoot: Callable[[Rung], Shot], longest: float, lines: Lines,

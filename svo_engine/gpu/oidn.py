@@ -89,7 +89,11 @@ class OidnDevice:
             self.handle = self.api.oidnNewDevice(_ANY_DEVICE)
         self.api.oidnSetDeviceBool(self.handle, b"setAffinity", False)  # other work wants the same processors
         self.api.oidnCommitDevice(self.handle)
-        self.check()
+        try:
+            self.check()
+        except GpuError:
+            self.close()
+            raise
 
     def check(self) -> None:
         """Raise GpuError with what the library has to say of its last error, if there was one."""

@@ -59,7 +59,8 @@ def make_denoiser(device: Device, size: tuple[int, int], asked: str, quality: st
 def _runs_on(device: Device, asked: str) -> OidnDevice | None:
     """Where Open Image Denoise is to run; if the choice is free, only where pictures need not go elsewhere for it."""
     is_software = device.profiler.is_software
-    if asked == "openimagedenoise" or (asked == "automatic" and (device.cuda or is_software)):
-        found = device.denoising
-        return found if asked == "openimagedenoise" or found.cuda or is_software else None
+    if asked == "openimagedenoise":
+        return device.denoising
+    if asked == "automatic" and (is_software or (device.cuda and device.denoising.cuda)):
+        return device.denoising
     return None

@@ -16,7 +16,7 @@ from ...gpu.device import Device
 from ...gpu.scope import GpuScope
 from ...scene.types import Light
 from ..upload import GpuScene, light_rows
-from .glow import EMITTER_DRAWS, Glow
+from .glow import Glow
 from .tree import light_tree
 
 FEW = 8  # lamps up to which each is drawn by itself
@@ -49,8 +49,7 @@ class Lights:
     @property
     def n_draws(self) -> int:
         """Draws of each pixel and sample."""
-        glow = self.glow
-        return self.n_own + TREE_DRAWS * (self.n_in_tree > 0) + EMITTER_DRAWS * (glow.n_emitters > 0) + glow.has_sky
+        return self.n_own + TREE_DRAWS * (self.n_in_tree > 0) + self.glow.n_draws
 
     def counts(self) -> dict[str, int]:
         """For the frame's statistics."""

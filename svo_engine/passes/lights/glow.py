@@ -29,6 +29,11 @@ class Glow:
     n_emitters: int
     has_sky: bool
 
+    @property
+    def n_draws(self) -> int:
+        """Draws of each pixel and sample."""
+        return EMITTER_DRAWS * (self.n_emitters > 0) + self.has_sky
+
     def constants(self) -> dict[str, bool | int | float]:
         """What is not there is not compiled."""
         return {"HAS_EMITTERS": self.n_emitters > 0, "HAS_WORLD_DRAWS": self.has_sky, "N_EMITTER_DRAWS": EMITTER_DRAWS}
