@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A cube of texels with all its mip levels.
 
-moderngl gives a 3D texture storage for its levels only by generating them, which takes NVIDIA's driver tens of
-milliseconds, and binds it as an image with one layer alone.
+Storage for the levels is asked for, not made by generating them, which takes NVIDIA's driver tens of milliseconds.
 """
 
 from __future__ import annotations
 
-import ctypes
-
-from .calls import Calls, clear_texture
+from .calls import Calls, check_memory, delete, generate
+from .texture import SPARE_UNIT
 
 _TEXTURE_3D, _TEXTURE0 = 0x806F, 0x84C0
 _RGBA16F, _RGBA, _HALF_FLOAT, _READ_WRITE = 0x881A, 0x1908, 0x140B, 0x88BA
@@ -24,11 +22,10 @@ class Cube:
         self.n = n
         self.n_levels = n.bit_length()
         self._calls = calls
-        name = ctypes.c_uint()
-        calls["glGenTextures"](1, ctypes.byref(name))
-        self.glo = name.value
-        calls["glBindTexture"](_TEXTURE_3D, self.glo)
+        self.glo = generate(calls, "Textures")
+        self.use(SPARE_UNIT)
         calls["glTexStorage3D"](_TEXTURE_3D, self.n_levels, _RGBA16F, n, n, n)
+        check_memory(calls)
         for parameter, value in _PARAMETERS:
             calls["glTexParameteri"](_TEXTURE_3D, parameter, value)
         self._clear()
@@ -49,9 +46,11 @@ class Cube:
 
     def release(self) -> None:
         """Give the memory back."""
-        self._calls["glDeleteTextures"](1, ctypes.byref(ctypes.c_uint(self.glo)))
+        delete(self._calls, "Textures", self.glo)
 
     def _clear(self) -> None:
-        if not clear_texture(self._calls, self.glo):
+        if "glClearTexImage" in self._calls:
+            self._calls["glClearTexImage"](self.glo, 0, _RGBA, _HALF_FLOAT, None)
+        else:
             n, zeros = self.n, bytes(8 * self.n**3)
             self._calls["glTexSubImage3D"](_TEXTURE_3D, 0, 0, 0, 0, n, n, n, _RGBA, _HALF_FLOAT, zeros)

@@ -9,9 +9,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-import moderngl
-
 from ..errors import GpuError
+from .buffer import Buffer
 
 _NAMES = {"linux": "libcuda.so.1", "win32": "nvcuda.dll"}
 _ALL_DEVICES = 1
@@ -43,7 +42,7 @@ class Cuda:
             raise GpuError(f"CUDA failed: {name} gave {code}")
 
     @contextmanager
-    def share(self, buffers: Sequence[moderngl.Buffer]) -> Iterator[Shared]:
+    def share(self, buffers: Sequence[Buffer]) -> Iterator[Shared]:
         """`buffers`, so that CUDA can map them."""
         resources = (ctypes.c_void_p * len(buffers))()
         try:

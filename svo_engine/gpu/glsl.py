@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,8 +19,27 @@ SHADER_DIR = Path(__file__).resolve().parents[2] / "shaders"
 _INCLUDE = re.compile(r'^\s*#include\s+"([^"]+)"\s*$')
 _CONSTANT = re.compile(r"^const (bool|int|uint|float) (\w+) = [^;]+;")
 _LOCAL_SIZE = re.compile(r"local_size_([xyz])\s*=\s*(\d+)")
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_BLOCK = re.compile(r"\bbuffer\s+(\w+)\s*\{")
+_UNIFORM = re.compile(r"\buniform\s+(?:(?:readonly|writeonly|coherent|restrict|highp)\s+)*(\w+)\s+([^;{]+);")
+_DECLARED = re.compile(r"(\w+)\s*(?:\[[^]]*\]\s*)*(?:,|$)")
 # Mesa: "0:12(5): error: ..."; NVIDIA: "0(12) : error C1234: ..."; AMD and Intel on Windows: "ERROR: 0:12: ..."
 _MESSAGE = re.compile(r"^(?:ERROR: )?\d+[:(](\d+)(?:\(\d+\))?\)?\s*:?\s*(.*)$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Names:
+    """What shaders declare, in the order of declaration: a call gives a value for each of these names.
+
+    buffers   storage blocks
+    textures  uniforms that are sampled; images are read and written
+    uniforms  all others, with their types
+    """
+
+    buffers: tuple[str, ...]
+    textures: tuple[str, ...]
+    images: tuple[str, ...]
+    uniforms: Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -83,6 +102,16 @@ def compose(path: str, constants: Mapping[str, bool | int | float] | None = None
 
     paste(path, f"shaders/{path}")
     return Source(path, "\n".join(lines) + "\n", tuple(origin), frozenset(unset))
+
+
+def names_of(sources: Iterable[Source]) -> Names:
+    """The names that the shaders of one program declare, each once."""
+    text = _COMMENT.sub(" ", "\n".join(source.text for source in sources))
+    types = {name: type_ for type_, declared in _UNIFORM.findall(text) for name in _DECLARED.findall(declared)}
+    textures, images = (tuple(name for name, type_ in types.items() if re.match(f"[iu]?{kind}", type_))
+                        for kind in ("sampler", "image"))
+    uniforms = {name: type_ for name, type_ in types.items() if name not in (*textures, *images)}
+    return Names(tuple(dict.fromkeys(_BLOCK.findall(text))), textures, images, uniforms)
 
 
 def _literal(kind: str, value: float) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, fields, is_dataclass
@@ -17,11 +18,15 @@ T = TypeVar("T")
 
 @dataclass(eq=False)
 class _Result:
-    """What a stage made of `inputs`. n_users: the frames that need it, and Kept itself while it is the last one."""
+    """What a stage made of `inputs`. n_users: the frames that need it, and every Kept while it is among its last."""
 
     inputs: tuple[Any, ...]
     value: Any
     n_users: int = 1
+
+    def is_of(self, inputs: tuple[Any, ...]) -> bool:
+        """Whether it was made of the same."""
+        return len(self.inputs) == len(inputs) and all(map(_same, self.inputs, inputs))
 
     def drop(self) -> None:
         """One user less; the last one releases it."""
@@ -31,45 +36,65 @@ class _Result:
 
 
 class Kept:
-    """The last result of each stage, given again while its inputs are the same; an edit redoes only what it touches.
+    """The last results of each stage, given again while their inputs are the same: an edit redoes only what it touches.
 
-    Frames may take turns on the device, sample by sample: what a frame uses stays until it ends, whatever others do.
+    Of most stages the last one is kept. Frames may take turns on the device, sample by sample: what a frame uses stays
+    until it ends, whatever others do.
+
+    family    all that render on one device: what one of them has kept serves the others too, so that meshes and trees
+              are there once, and none drops what another one still needs
     """
 
-    def __init__(self) -> None:
-        self._results: dict[str, _Result] = {}
+    def __init__(self, family: list[Kept] | None = None) -> None:
+        self._results: defaultdict[str, list[_Result]] = defaultdict(list)
+        self._family = [] if family is None else family
+        self._family.append(self)
 
     def forget(self, names: Iterable[str] | None = None) -> None:
         """Drop the last results of some stages, or of all, so that the next frame makes them anew."""
         for name in list(self._results if names is None else names):
-            if name in self._results:
-                self._results.pop(name).drop()
+            for result in self._results.pop(name, []):
+                result.drop()
+
+    def close(self) -> None:
+        """Drop all, and leave the family."""
+        self.forget()
+        if self in self._family:
+            self._family.remove(self)
 
     @contextmanager
     def frame(self, device: Device) -> Iterator[Callable[..., Any]]:
-        """The function `stage(name, make, *inputs)` for one frame.
+        """The function `stage(name, make, *inputs, n_kept=1)` for one frame.
 
-        It gives `make(device, *inputs)`, or its last result if all inputs are the same objects or equal values.
+        It gives `make(device, *inputs)`, or one of its n_kept last results if all inputs are the same objects or equal
+        values. `make` sees nothing but its inputs, so that nothing else can make a kept result wrong.
         """
         with ExitStack() as used:
 
-            def stage(name: str, make: Callable[..., T], *inputs: Any) -> T:
-                result = self._result(name, make, device, inputs)
+            def stage(name: str, make: Callable[..., T], *inputs: Any, n_kept: int = 1) -> T:
+                result = self._result(name, make, device, inputs, n_kept)
                 result.n_users += 1
                 used.callback(result.drop)
                 return result.value
 
             yield stage
 
-    def _result(self, name: str, make: Callable[..., Any], device: Device, inputs: tuple[Any, ...]) -> _Result:
-        last = self._results.get(name)
-        if last and len(last.inputs) == len(inputs) and all(map(_same, last.inputs, inputs)):
-            return last
-        if last:
-            del self._results[name]
-            last.drop()
-        result = self._results[name] = _Result(inputs, _whole(make, device, inputs))
-        return result
+    def _result(self, name: str, make: Callable[..., Any], device: Device, inputs: tuple[Any, ...],
+                n_kept: int) -> _Result:
+        own = self._results[name]
+        for result in own:
+            if result.is_of(inputs):
+                own.remove(result)
+                own.append(result)
+                return result
+        others = (result for kept in self._family for result in kept._results.get(name, ()))
+        found = next((result for result in others if result.is_of(inputs)), None)
+        while len(own) >= n_kept:
+            own.pop(0).drop()
+        if found:
+            found.n_users += 1
+        own.append(found or _Result(inputs, _whole(make, device, inputs)))
+        return own[-1]
 
 
 def _same(a: Any, b: Any) -> bool:

@@ -12,10 +12,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import moderngl
 import numpy as np
 
 from ..errors import GpuError
+from .buffer import Buffer
 from .cuda import Cuda
 
 QUALITIES = {"high": 6, "balanced": 5, "fast": 4}
@@ -113,7 +113,7 @@ class Oidn:
     GpuError if the library cannot.
     """
 
-    def __init__(self, device: OidnDevice, images: Sequence[moderngl.Buffer], size: tuple[int, int], quality: str,
+    def __init__(self, device: OidnDevice, images: Sequence[Buffer], size: tuple[int, int], quality: str,
                  is_clean: bool) -> None:
         self._device, self._api, self._size, self._images = device, device.api, size, images
         self._n_bytes = size[0] * size[1] * _RGBA
@@ -132,7 +132,7 @@ class Oidn:
             device.check()
             self._made = made.pop_all()
 
-    def run(self, pixels: np.ndarray, staging: moderngl.Buffer) -> None:
+    def run(self, pixels: np.ndarray, staging: Buffer) -> None:
         """Fill `pixels` (height, width, 4) f4 with the first of the images, filtered by the others.
 
         staging  a buffer for the host, of the same size
@@ -144,7 +144,7 @@ class Oidn:
                     self._view([self._api.oidnNewSharedBuffer(self._device.handle, address, self._n_bytes)
                                 for address in addresses])
                 self._execute()
-            self._images[0].ctx.copy_buffer(staging, self._images[0])
+            staging.copy_from(self._images[0])
             staging.read_into(pixels)
             return
         for image, buffer in zip(reversed(self._images), reversed(self._buffers), strict=True):

@@ -3,77 +3,113 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import struct
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import moderngl
 import numpy as np
 
-from ..errors import ShaderError
+from .bindings import Bindings, Image, Sampled
+from .buffer import Buffer
 from .calls import Calls
-from .glsl import Source
-from .passes import Pass
+from .glsl import Source, names_of
+from .passes import RANGE
 
-Value = float | int | tuple[float, ...] | np.ndarray
+Value = float | int | Sequence[float] | np.ndarray  # of a uniform
+Resource = Buffer | Sampled | Image | Value | None  # of any name that a shader declares
+Resources = Mapping[str, Resource]
+
+_STORAGE_BLOCK, _NOWHERE = 0x92E6, 0xFFFFFFFF
+_KINDS = {"float": "f", "vec": "f", "mat": "f", "int": "i", "ivec": "i", "bool": "i", "uint": "ui", "uvec": "ui"}
+_CODES = {"f": "f", "i": "i", "ui": "I"}  # of struct
 
 
 class Program:
-    """`handle` is moderngl's; local_size counts the invocations of a workgroup. ShaderError if it does not compile."""
+    """`glo`, a linked program made of `sources`; local_size counts the invocations of a workgroup."""
 
-    def __init__(self, ctx: moderngl.Context, calls: Calls, pass_: Pass, sources: list[Source]) -> None:
-        self.handle = _compile(ctx, sources)
+    def __init__(self, calls: Calls, glo: int, sources: Sequence[Source]) -> None:
+        self.glo, self._calls = glo, calls
         x, y, z = sources[0].local_size
         self.local_size = x * y * z
-        self._members = {name: self.handle[name] for name in self.handle}  # a compiler removes what nobody uses
-        self._values: dict[str, Any] = {}
-        self._buffers = self._slots(pass_.buffers)
-        self._textures, self._images = self._slots(pass_.textures), self._slots(pass_.images)
-        for name, slot in self._buffers.items():
-            self._members[name].binding = slot
-        for name, slot in (self._textures | self._images).items():
-            # moderngl writes garbage into uniforms of type image3D and usamplerBuffer
-            calls["glProgramUniform1i"](self.handle.glo, self._members[name].location, slot)
+        names = names_of(sources)
+        setters = {name: self._setter(name, type_) for name, type_ in names.uniforms.items()}
+        self._range: tuple[int, int] | None = None
+        self._range_setters = [setters.pop(name, None) for name in RANGE]
+        self._setters = {name: setter for name, setter in setters.items() if setter}
+        self._values: dict[str, Any] = dict.fromkeys(self._setters)
+        self._blocks = [(name, slot) for slot, name in enumerate(names.buffers) if self._put_block(name, slot)]
+        self._textures, self._images = (
+            [(name, slot) for slot, name in enumerate(kind) if self._put_texture(name, slot)]
+            for kind in (names.textures, names.images))
 
-    def bind(self, resources: Mapping[str, Any]) -> None:
-        """Bind the buffers, textures and images that the program still has."""
-        for name, slot in self._buffers.items():
-            resources[name].bind_to_storage_buffer(slot)
-        for name, slot in self._textures.items():
-            resources[name].use(slot)
-        for name, slot in self._images.items():
-            _bind_image(resources[name], slot)
+    def bind(self, bindings: Bindings, resources: Mapping[str, Any]) -> None:
+        """Bind what the compiler has left of buffers, textures and images; None stands for what is not read."""
+        for name, slot in self._blocks:
+            if (buffer := resources[name]) is not bindings.blocks[slot] and buffer is not None:
+                bindings.block(slot, buffer)
+        for name, unit in self._textures:
+            if (texture := resources[name]) is not bindings.textures[unit] and texture is not None:
+                bindings.texture(unit, texture)
+        for name, unit in self._images:
+            if (image := resources[name]) != bindings.images[unit] and image is not None:
+                bindings.image(unit, image)
 
-    def set(self, values: Mapping[str, Value]) -> None:
-        """Set the uniforms that the program still has; matrices come as (rows, columns) and go in column by column."""
-        for name, value in values.items():
-            if name not in self._members:
-                continue
-            plain = tuple(value.T.ravel().tolist()) if isinstance(value, np.ndarray) else value
-            if self._values.get(name) != plain:
-                self._members[name].value = self._values[name] = plain
+    def set(self, values: Resources) -> None:
+        """Set the uniforms that the compiler has left, of all that `values` names."""
+        last = self._values
+        for name, setter in self._setters.items():
+            if (value := values.get(name)) is not None:
+                known = value.tobytes() if isinstance(value, np.ndarray) else value
+                if last[name] != known:
+                    setter(value)
+                    last[name] = known
+
+    def set_range(self, first: int, end: int) -> None:
+        """Set u_first and u_end, which the device gives every pass."""
+        if self._range != (first, end):
+            self._range = first, end
+            for setter, value in zip(self._range_setters, self._range, strict=True):
+                if setter:
+                    setter(value)
 
     def release(self) -> None:
         """Give it back."""
-        self.handle.release()
+        self._calls["glDeleteProgram"](self.glo)
 
-    def _slots(self, names: tuple[str, ...]) -> dict[str, int]:
-        return {name: slot for slot, name in enumerate(names) if name in self._members}
+    def _put_block(self, name: str, slot: int) -> bool:
+        """Give a storage block its slot; False where the compiler has removed it."""
+        index = self._calls["glGetProgramResourceIndex"](self.glo, _STORAGE_BLOCK, name.encode())
+        if index == _NOWHERE:
+            return False
+        self._calls["glShaderStorageBlockBinding"](self.glo, index, slot)
+        return True
 
+    def _put_texture(self, name: str, unit: int) -> bool:
+        """Give a sampler or an image its unit; False where the compiler has removed it."""
+        location = self._calls["glGetUniformLocation"](self.glo, name.encode())
+        if location >= 0:
+            self._calls["glProgramUniform1iv"](self.glo, location, 1, struct.pack("i", unit))
+        return location >= 0
 
-def _compile(ctx: moderngl.Context, sources: list[Source]) -> Any:
-    try:
-        if len(sources) == 1:
-            return ctx.compute_shader(sources[0].text)
-        return ctx.program(vertex_shader=sources[0].text, fragment_shader=sources[1].text)
-    except moderngl.Error as error:
-        log = str(error)
-        blamed = sources[-1] if "fragment_shader" in log else sources[0]
-        raise ShaderError(blamed.explain(log.rsplit("=\n", maxsplit=1)[-1])) from error
+    def _setter(self, name: str, type_: str) -> Callable[[Any], None] | None:
+        """What sets a uniform of that type, or of an array of it; None where the compiler has removed it."""
+        glo, location = self.glo, self._calls["glGetUniformLocation"](self.glo, name.encode())
+        if location < 0:
+            return None
+        kind, width = _KINDS[type_.rstrip("234")], int(type_[-1]) if type_[-1] in "234" else 1
+        if type_.startswith("mat"):
+            call, n = self._calls[f"glProgramUniformMatrix{width}fv"], width * width
 
+            def set_matrices(value: np.ndarray) -> None:
+                """Rows and columns as numpy has them, and as OpenGL does not."""
+                call(glo, location, value.size // n, True, value.astype("f4").tobytes())
 
-def _bind_image(image: Any, slot: int) -> None:
-    """Bind a 2D texture, or (Cube, mip level)."""
-    if isinstance(image, tuple):
-        image[0].bind_level(slot, image[1])
-    else:
-        image.bind_to_image(slot, read=True, write=True)
+            return set_matrices
+        call, code, plain = self._calls[f"glProgramUniform{width}{kind}v"], _CODES[kind], float if kind == "f" else int
+
+        def set_numbers(value: Any) -> None:
+            flat = np.ravel(value).tolist() if isinstance(value, np.ndarray) else value
+            flat = flat if isinstance(flat, (tuple, list)) else (flat,)
+            call(glo, location, len(flat) // width, struct.pack(f"{len(flat)}{code}", *map(plain, flat)))
+
+        return set_numbers

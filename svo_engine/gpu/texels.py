@@ -7,10 +7,9 @@ a tenth faster on an H100.
 
 from __future__ import annotations
 
-import ctypes
-from typing import Any
-
-from .calls import Calls
+from .buffer import Buffer
+from .calls import Calls, delete, generate
+from .texture import SPARE_UNIT
 
 _TEXTURE_BUFFER, _TEXTURE0, _RGBA32UI = 0x8C2A, 0x84C0, 0x8D70
 
@@ -20,13 +19,11 @@ TEXEL = 16  # bytes
 class Texels:
     """A usamplerBuffer over `buffer`: four u4 a texel. The buffer is its maker's, who releases it after this."""
 
-    def __init__(self, calls: Calls, buffer: Any) -> None:
+    def __init__(self, calls: Calls, buffer: Buffer) -> None:
         self.buffer = buffer
         self._calls = calls
-        name = ctypes.c_uint()
-        calls["glGenTextures"](1, ctypes.byref(name))
-        self.glo = name.value
-        calls["glBindTexture"](_TEXTURE_BUFFER, self.glo)
+        self.glo = generate(calls, "Textures")
+        self.use(SPARE_UNIT)
         calls["glTexBuffer"](_TEXTURE_BUFFER, _RGBA32UI, buffer.glo)
 
     def use(self, unit: int) -> None:
@@ -36,4 +33,4 @@ class Texels:
 
     def release(self) -> None:
         """Give the texture back, not the buffer."""
-        self._calls["glDeleteTextures"](1, ctypes.byref(ctypes.c_uint(self.glo)))
+        delete(self._calls, "Textures", self.glo)

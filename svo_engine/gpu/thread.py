@@ -16,6 +16,7 @@ from .device import Device
 
 T = TypeVar("T")
 POLL_SECONDS = 0.02
+IDLE_SECONDS = 0.2  # without work, after which there is time for other things
 
 
 @dataclass(eq=False)
@@ -27,16 +28,28 @@ class _Job:
     stop: threading.Event = field(default_factory=threading.Event)
 
 
+_AWAKE = _Job(lambda _: None)  # nothing to do but to look up
+
+
 class GpuThread:
-    """A daemon thread with one Device, made when the first work arrives. Work is done in the order of posting."""
+    """A daemon thread with one Device, made when the first work arrives. Work is done in the order of posting.
+
+    idle  what `when_idle` was given, while there is more of it
+    """
 
     def __init__(self) -> None:
         self._jobs: queue.SimpleQueue[_Job | None] = queue.SimpleQueue()
         self._device: Device | None = None
         self._lock = threading.Lock()
         self._is_closed = False
+        self.idle: Callable[[Device], bool] | None = None
         self._thread = threading.Thread(target=self._serve, name="svo-gpu", daemon=True)
         self._thread.start()
+
+    @property
+    def status(self) -> str:
+        """What takes long on the device just now, for a user to read; "" if nothing does. Does not wait for it."""
+        return self._device.programs.status if self._device else ""
 
     def call(self, work: Callable[[Device], T], should_stop: Callable[[], bool] = lambda: False) -> T:
         """Run `work(device)` on the GPU's thread and return its result, or raise what it raised.
@@ -73,6 +86,14 @@ class GpuThread:
             with suppress(Cancelled):  # closed, and everything released with it
                 self.call(lambda device: items.close())
 
+    def when_idle(self, work: Callable[[Device], bool]) -> None:
+        """From now on do `work(device)` while nothing else is to be done: a short part, and it says if there is more.
+
+        It ends where it fails; nobody is told, since nobody waits for it.
+        """
+        self.idle = work
+        self._jobs.put(_AWAKE)
+
     def close(self) -> None:
         """Release the device and end the thread; waits for the work in hand."""
         with self._lock:
@@ -80,8 +101,26 @@ class GpuThread:
             self._jobs.put(None)
         self._thread.join(timeout=10)
 
+    def _next(self) -> _Job | None:
+        """The next job; while there is none, what `idle` does."""
+        while True:
+            try:
+                if (job := self._jobs.get(timeout=IDLE_SECONDS if self.idle else None)) is not _AWAKE:
+                    return job
+            except queue.Empty:
+                if self.idle and self._device and not self._rest(self.idle, self._device):
+                    self.idle = None
+
+    def _rest(self, idle: Callable[[Device], bool], device: Device) -> bool:
+        """One part of it. The last job may have been stopped: that is not meant for what comes after it."""
+        device.stop = threading.Event()
+        try:
+            return idle(device)
+        except Exception:  # noqa: BLE001 - whoever needs what failed is told then
+            return False
+
     def _serve(self) -> None:
-        while (job := self._jobs.get()) is not None:
+        while (job := self._next()) is not None:
             try:
                 if self._device is None:
                     self._device = Device()

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import moderngl
 import pytest
 
 from svo_engine.errors import GpuError
@@ -16,7 +15,7 @@ class OldContext:
     """What an old graphics card gives."""
 
     def __init__(self) -> None:
-        self.info = {"GL_RENDERER": "Old Card", "GL_VERSION": "3.3.0 Core"}
+        self.info, self.version = {"renderer": "Old Card", "version": "3.3.0 Core"}, 330
 
     def release(self) -> None:
         pass
@@ -24,20 +23,20 @@ class OldContext:
 
 @pytest.fixture
 def no_opengl(monkeypatch):
-    def fail(**_):
+    def fail(_):
         raise Exception("(load_library) libEGL.so.1: no such file")  # as glcontext does
 
-    monkeypatch.setattr(moderngl, "create_context", fail)
+    monkeypatch.setattr(module, "_create", fail)
 
 
-@pytest.fixture
-def old_opengl(monkeypatch):
-    def make(require, **_):
-        if require > 330:
-            raise ValueError("Requested OpenGL version 430, got version 330")
+@pytest.fixture(params=[430, 330], ids=["which does not heed what is asked", "which refuses"])
+def old_opengl(monkeypatch, request):
+    def make(version):
+        if version > request.param:
+            raise Exception("cannot create context")
         return OldContext()
 
-    monkeypatch.setattr(moderngl, "create_context", make)
+    monkeypatch.setattr(module, "_create", make)
 
 
 @pytest.mark.usefixtures("no_opengl")

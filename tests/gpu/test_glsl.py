@@ -81,6 +81,40 @@ def test_the_workgroup_size_is_what_the_shader_declares(write):
     assert compose("x.comp.glsl", root=root).local_size == (8, 4, 1)
 
 
+DECLARED = """
+// uniform int u_not;  buffer Not { };
+layout(std430) readonly buffer Rows { vec4 rows[]; };  /* buffer
+Neither { } */
+layout(std430) buffer Sums {
+    uint sums[];
+};
+layout(rgba32f) uniform writeonly image2DArray u_film;
+layout(r32ui) uniform uimage2D u_done;
+uniform usamplerBuffer u_nodes;
+uniform sampler2D u_near, u_far;
+uniform uint u_first;
+uniform uint u_end;
+uniform mat3 u_rays[2];
+uniform bool u_is_on;   // uniform float u_neither;
+float not_a_uniform(float buffer_like) { return buffer_like; }
+"""
+
+
+def test_names_are_read_from_the_text_in_the_order_of_declaration(write):
+    write("lib/more.glsl", "uniform float u_more;\n")
+    root = write("x.comp.glsl", DECLARED + '#include "lib/more.glsl"\n')
+    assert glsl.names_of([compose("x.comp.glsl", root=root)]) == glsl.Names(
+        ("Rows", "Sums"), ("u_nodes", "u_near", "u_far"), ("u_film", "u_done"),
+        {"u_first": "uint", "u_end": "uint", "u_rays": "mat3", "u_is_on": "bool", "u_more": "float"})
+
+
+def test_names_that_both_shaders_of_a_program_declare_count_once(write):
+    write("x.vert.glsl", "buffer Rows { int rows[]; };\nuniform int u_a;\n")
+    root = write("x.frag.glsl", "uniform int u_b;\nbuffer Rows { int rows[]; };\nuniform int u_a;\n")
+    sources = [compose(path, root=root) for path in ("x.vert.glsl", "x.frag.glsl")]
+    assert glsl.names_of(sources) == glsl.Names(("Rows",), (), (), {"u_a": "int", "u_b": "int"})
+
+
 LINES = (("light/x.comp.glsl", 1), *(("light/x.comp.glsl", i) for i in range(1, 9)),
          ("lib/a.glsl", 1), ("lib/a.glsl", 2))
 
@@ -110,8 +144,8 @@ def run_from(device, monkeypatch):
 
     def run_from(root, constants=None):
         monkeypatch.setattr(glsl, "compose", partial(compose, root=root))
-        monkeypatch.setattr(device, "_programs", {})
-        device.dispatch(Pass(("light/x.comp.glsl",)), 1, constants)
+        monkeypatch.setattr(device.programs, "_ready", {})
+        device.dispatch(Pass("light/x.comp.glsl"), 1, constants)
 
     return run_from
 
@@ -135,9 +169,9 @@ def test_the_real_compiler_blames_the_fragment_shader(device, write, monkeypatch
     root = write("x.frag.glsl", "out vec4 o;\nvoid main()\n{\n    o = undeclared;\n}\n")
     monkeypatch.setattr(glsl, "compose", partial(compose, root=root))
     with device.scope() as scope:
-        target = scope.framebuffer("target", [scope.texture("color", (4, 4), 4, "f4")], with_depth=False)
+        target = scope.framebuffer("target", scope.texture("color", (4, 4), 4, "f4"))
         with pytest.raises(ShaderError, match=r"shaders/x\.frag\.glsl:4: .*undeclared"):
-            device.draw(Pass(("x.vert.glsl", "x.frag.glsl")), target, [DrawCall(3)])
+            device.draw(Pass("x.vert.glsl", "x.frag.glsl"), target, [DrawCall(3)])
 
 
 def test_a_constant_that_no_line_declares_is_an_error(write, run_from):

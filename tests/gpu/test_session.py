@@ -10,6 +10,7 @@ import pytest
 
 from svo_engine import render
 from svo_engine.errors import Cancelled, GpuError
+from svo_engine.gpu.compiler import Compiler
 from svo_engine.render import Session
 from svo_engine.scene.types import Scene
 from tests import scenes
@@ -17,7 +18,7 @@ from tests import scenes
 
 def held(session) -> tuple[int, int]:
     """Bytes and scopes that the session's device holds."""
-    return session._opened()[0].call(lambda device: (device.n_bytes, len(device.scopes)))
+    return session.opened().thread.call(lambda device: (device.n_bytes, len(device.scopes)))
 
 
 def picture(session, scene, **settings) -> np.ndarray:
@@ -42,6 +43,25 @@ def test_twenty_renders_of_changing_scenes_hold_what_the_first_held(session):
     for i in range(1, 21):
         picture(session, room(i))
     assert held(session) == first
+
+
+def test_films_say_what_was_compiled_for_them(session):
+    first = next(session.films(room(30), scenes.view(room(30)), scenes.SMALL))
+    again = next(session.films(room(31), scenes.view(room(31)), scenes.SMALL))
+    assert first.stats["counts"]["programs compiled"] >= 0 <= first.stats["times_ms"]["compile"]
+    assert (again.stats["counts"]["programs compiled"], again.stats["times_ms"]["compile"]) == (0, 0.0)
+
+
+def test_a_session_says_that_it_compiles_and_then_nothing(monkeypatch):
+    """Here nothing is done before its caller has looked."""
+    made, told, is_done = Session(), set[str](), Compiler.is_done
+    monkeypatch.setattr(Compiler, "is_done", lambda *its: any(told) and is_done(*its))
+    assert made.status == ""
+    first = list(made.films(room(0), scenes.view(room(0)), scenes.SMALL, lambda: told.add(made.status) is not None))
+    assert any(status.startswith("Compiling shaders, 1 of ") for status in told)
+    assert first[0].stats["counts"]["programs compiled"] > 0 < first[0].stats["times_ms"]["compile"]
+    assert made.status == ""
+    made.close()
 
 
 def test_every_view_releases_its_own(session):
@@ -71,7 +91,7 @@ def test_cancelling_at_any_moment_leaks_nothing(session):
 
 
 def test_a_scene_too_large_for_the_device_is_an_error_and_leaks_nothing(session):
-    thread = session._opened()[0]
+    thread = session.opened().thread
     session.forget()
     picture(session, scenes.cornell())
     first = held(session)
@@ -82,6 +102,7 @@ def test_a_scene_too_large_for_the_device_is_an_error_and_leaks_nothing(session)
     with pytest.raises(GpuError, match="needs"):
         picture(session, scenes.cornell())
     thread.call(lambda device: setattr(device, "limits", limits))
+    session.forget()  # a picture's parts are as large as fits, and no device changes its limits
     picture(session, scenes.cornell())
     assert held(session) == first
 

@@ -43,5 +43,5 @@ def test_what_is_written_is_read(device):
 def test_more_texels_than_the_device_reads(device, monkeypatch):
     """The limit of the texture unit is named."""
     monkeypatch.setitem(device.limits, "GL_MAX_TEXTURE_BUFFER_SIZE", 100)
-    with device.scope() as scope, pytest.raises(GpuError, match=r"'words' needs .* MiB, the device reads 0.0 MiB"):
+    with device.scope() as scope, pytest.raises(GpuError, match=r"'words' needs .* MiB, the device allows 0.0 MiB"):
         scope.texels("words", 1616)
