@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import atexit
 
-from . import compare, engine, panels, properties, render_passes, session, view_layer_panels, viewport
+from . import compare, engine, final, panels, properties, render_passes, session, view_layer_panels, viewport
 
 _PARTS = (properties, render_passes, engine, compare, panels, view_layer_panels)
 
@@ -27,4 +27,5 @@ def unregister() -> None:
         for part in reversed(_PARTS):
             part.unregister()
     viewport.close_all()
+    final.forget()
     session.close()

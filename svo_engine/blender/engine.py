@@ -61,7 +61,7 @@ class SVORenderEngine(bpy.types.RenderEngine):
         """At each redraw."""
         if self._viewport is not None:
             with _noting_errors(self._viewport):
-                self._viewport.draw(self, context, depsgraph.scene)
+                self._viewport.draw(self, context, depsgraph)
             self.update_stats(*self._viewport.status)
 
     @contextmanager

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import bpy
@@ -18,10 +19,13 @@ from .extract import border, extract
 from .extract.camera import read_camera
 from .properties import settings_of
 from .render_passes import passes_of
+from .sync import Sync
+from .sync.changes import Uid, uid_of
 
 # A preview is an icon or a small sphere: it must come at once
 _PREVIEW_SETTINGS = RenderSettings(samples=4, cache_resolution="32", bounces=2)
 _UPDATE_SECONDS = 0.3  # between pictures for whoever watches
+_kept: dict[Uid, Sync] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +48,24 @@ def extract_frame(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph
     if not engine.is_preview:
         passes = passes_of(depsgraph.scene, depsgraph.view_layer)
         settings = replace(settings_of(depsgraph.scene), passes=passes)
-    scene, crop = extract(depsgraph), border(depsgraph.scene)
-    return Frame(scene, settings, crop, depsgraph.view_layer.name, (time.perf_counter() - start) * 1e3)
+    scene = extract(depsgraph) if engine.is_preview else _sync_of(depsgraph.scene).read(depsgraph)
+    extract_ms = (time.perf_counter() - start) * 1e3
+    return Frame(scene, settings, border(depsgraph.scene), depsgraph.view_layer.name, extract_ms)
+
+
+def forget() -> None:
+    """Give up what the last render has read."""
+    _kept.clear()
+
+
+def _sync_of(scene: bpy.types.Scene) -> Sync:
+    """Of the scene that was rendered last. Blender makes a new depsgraph for each render and tells nothing of what has
+    changed: all is read, but what is the same as before stays the same object."""
+    uid = uid_of(scene.original)
+    if uid not in _kept:
+        _kept.clear()
+        _kept[uid] = Sync()
+    return _kept[uid]
 
 
 def render_frame(engine: bpy.types.RenderEngine, frame: Frame) -> None:
@@ -64,13 +84,28 @@ def _view_of(engine: bpy.types.RenderEngine, frame: Frame) -> View:
     return make_view(camera, (engine.resolution_x, engine.resolution_y), frame.border)
 
 
+def _watch(engine: bpy.types.RenderEngine) -> Callable[[], bool]:
+    """What is asked while the device works: whether to stop. It also tells how far shaders are compiled."""
+    told = ""
+
+    def should_stop() -> bool:
+        nonlocal told
+        if (status := session.current.status) != told:
+            told = status
+            engine.update_stats("", status or "Rendering")
+        return bool(engine.test_break())
+
+    return should_stop
+
+
 def _render_view(engine: bpy.types.RenderEngine, frame: Frame, name: str, view: View) -> None:
     """Render one view; whatever there is when it ends, also by an error or a cancel, stays in the result."""
     engine.update_stats("", "Preparing")
     result = engine.begin_result(0, 0, *view.size, layer=frame.layer, view=name)
+    client = session.client("preview" if engine.is_preview else "final")
     film, interval, hand_over_ms = None, math.inf if bpy.app.background else _UPDATE_SECONDS, 0.0
     try:
-        for film in session.current.films(frame.scene, view, frame.settings, engine.test_break, interval):
+        for film in client.films(frame.scene, view, frame.settings, _watch(engine), interval):
             start = time.perf_counter()
             present.fill_result(result, film, name)
             engine.update_result(result)

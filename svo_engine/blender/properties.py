@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from functools import lru_cache
 from typing import Any
 
 import bpy
@@ -27,10 +28,20 @@ def defaults() -> dict[str, Any]:
     return {f.name: f.default for f in fields(RenderSettings) if f.name in specs()}
 
 
+_DEFAULTS = defaults()
+
+
 def settings_of(scene: bpy.types.Scene) -> RenderSettings:
     """The settings of `scene`, evaluated or original."""
     group = scene.svo
-    return RenderSettings(**{name: _as_typed(getattr(group, name), default) for name, default in defaults().items()})
+    return _settings(*(getattr(group, name) for name in _DEFAULTS))
+
+
+@lru_cache(maxsize=8)
+def _settings(*values: Any) -> RenderSettings:
+    """Kept, as a viewport asks at each redraw."""
+    return RenderSettings(**{name: _as_typed(value, _DEFAULTS[name])
+                             for name, value in zip(_DEFAULTS, values, strict=True)})
 
 
 def register() -> None:

@@ -6,13 +6,24 @@ from __future__ import annotations
 from typing import Any
 
 from ..film import Film
-from ..render import Session
+from ..render import Client, Session
 
 # Nothing is made on the GPU before its first use, nor after `close` before the next one
 current = Session()
 
 # `Film.stats` of the last final render, with its "n_samples"
 last_stats: dict[str, Any] = {}
+
+# Of "final" renders and "preview"s; a viewport has one of its own for as long as it is there
+_clients: dict[tuple[str, Session], Client] = {}
+
+
+def client(name: str) -> Client:
+    """Who renders for that purpose: its frames drop nothing that a viewport needs."""
+    key = name, current
+    if key not in _clients:
+        _clients[key] = current.client()
+    return _clients[key]
 
 
 def keep_stats(film: Film, times_ms: dict[str, float]) -> None:
@@ -24,4 +35,5 @@ def keep_stats(film: Film, times_ms: dict[str, float]) -> None:
 def close() -> None:
     """Free the GPU."""
     last_stats.clear()
+    _clients.clear()
     current.close()

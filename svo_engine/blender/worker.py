@@ -44,16 +44,21 @@ class Worker:
     """Renders the newest job: a draft first, which only `close` interrupts, so that a moving view is never starved;
     then the samples, until another job comes in.
 
+    finish    called in the thread when it ends
     describe  turns what a job ended with into a sentence; the exception itself would keep its whole stack alive
     shown     the newest Film with the job that it belongs to, or None
     failure   the sentence on the last job, or ""
+    is_idle   whether there is nothing to be done
     """
 
-    def __init__(self, films: FilmSource, describe: Callable[[Exception], str]) -> None:
+    def __init__(self, films: FilmSource, describe: Callable[[Exception], str],
+                 finish: Callable[[], None] = lambda: None) -> None:
         self.shown: tuple[Job, Film] | None = None
         self.failure = ""
-        self._films, self._describe = films, describe
+        self._films, self._describe, self._finish = films, describe, finish
+        self.is_idle = True
         self._job: Job | None = None
+        self._finished: Job | None = None
         self._changed = threading.Condition()
         self._is_closed = False
         self._news = threading.Event()
@@ -66,6 +71,17 @@ class Worker:
             if not job.is_same(self._job):
                 self._job = job
                 self._changed.notify()
+
+    def retry(self) -> None:
+        """Have a job that failed begun again when it is shown next, though it be the same."""
+        with self._changed:
+            if self.failure:
+                self._job = None
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether nothing more will come of the newest job."""
+        return self._job is self._finished
 
     def take_news(self) -> bool:
         """Whether there is a new film or failure since the last call."""
@@ -86,6 +102,7 @@ class Worker:
     def _run(self) -> None:
         job = None
         while (job := self._next(job)) is not None:
+            self.is_idle = False
             try:
                 self._render(job)
             except Cancelled:
@@ -93,11 +110,15 @@ class Worker:
             except Exception as error:  # noqa: BLE001 - the main thread tells the user
                 self.failure = self._describe(error)
                 self._news.set()
+            finally:
+                self.is_idle = True
+            self._finished = job
+        self._finish()
 
     def _next(self, done: Job | None) -> Job | None:
         """Wait for a job other than `done`; None when it is time to end."""
         with self._changed:
-            self._changed.wait_for(lambda: self._is_closed or self._job is not done)
+            self._changed.wait_for(lambda: self._is_closed or self._job not in (done, None))
             return None if self._is_closed else self._job
 
     def _render(self, job: Job) -> None:

@@ -23,3 +23,11 @@ def extension():
     blender.register()
     yield blender
     blender.unregister()
+
+
+@pytest.fixture(autouse=True)
+def no_handlers():
+    """None is left: Blender 4.5 hangs at its end if there is one."""
+    yield
+    bpy.app.handlers.depsgraph_update_post.clear()
+    bpy.app.handlers.frame_change_post.clear()

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 
 from svo_engine.errors import Cancelled
@@ -19,7 +21,12 @@ def gradient(width: int, height: int, n_samples: int = 1, alpha: float = 1.0) ->
 
 
 class FakeSession:
-    """Notes each call in `calls` as (scene, view, settings); `error`: raised after `n_before_error` films."""
+    """Notes each call in `calls` as (scene, view, settings); `error`: raised after `n_before_error` films.
+
+    Its clients, viewports and final renders, all paint here.
+    """
+
+    status = ""
 
     def __init__(self) -> None:
         self.calls: list[tuple[Scene, View, RenderSettings]] = []
@@ -38,6 +45,12 @@ class FakeSession:
             stats = {"device": "none", "times_ms": {"paint": 0.0}, "counts": {"interval": interval}}
             width, height = view.size
             yield Film({"Combined": gradient(width, height, n, alpha)}, n, stats)
+
+    def client(self):
+        return SimpleNamespace(films=self.films, close=lambda: None)
+
+    def compile_all(self):
+        """There is nothing to compile."""
 
     def close(self):
         self.is_closed = True

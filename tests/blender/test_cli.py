@@ -195,7 +195,7 @@ from svo_engine import cli, errors, render
 def films(*args, **more):
     raise errors.GpuError("OpenGL 4.3 is missing")
 
-render.Session.films = films
+render.Client.films = films
 sys.exit(cli.main(sys.argv[1:]))
 """
     done = subprocess.run([sys.executable, "-c", code, "render", blend, "--out", blend.with_suffix(".png")], cwd=root,

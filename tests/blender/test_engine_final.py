@@ -198,10 +198,10 @@ def test_error_of_ours_is_one_sentence_and_a_traceback_in_the_log(fake, caplog):
 
 @pytest.mark.usefixtures("scene")
 def test_error_while_extracting_is_told_and_nothing_is_rendered(fake, monkeypatch):
-    def extract(_depsgraph):
+    def read(_sync, _depsgraph):
         raise SceneError("Mesh 'Cube' is broken")
 
-    monkeypatch.setattr(final, "extract", extract)
+    monkeypatch.setattr(final.Sync, "read", read)
     with pytest.raises(RuntimeError, match="Mesh 'Cube' is broken"):
         bpy.ops.render.render()
     assert fake.calls == []
@@ -231,9 +231,9 @@ def test_no_camera_is_told(scene, fake):
 
 
 def test_warnings_of_the_extraction_are_reported(scene, monkeypatch, capfd):
-    real = final.extract
+    real = final.Sync.read
     warnings = ("Image 'wood' is missing",)
-    monkeypatch.setattr(final, "extract", lambda depsgraph: replace(real(depsgraph), warnings=warnings))
+    monkeypatch.setattr(final.Sync, "read", lambda sync, depsgraph: replace(real(sync, depsgraph), warnings=warnings))
     render(scene)
     assert "Warning: Image 'wood' is missing" in capfd.readouterr().out
 
@@ -266,6 +266,17 @@ def test_progress_and_stats_line(scene, monkeypatch):
     render(scene)
     assert progress == [1 / 3, 2 / 3, 1]
     assert lines == ["Preparing", "Sample 1/3", "Sample 2/3", "Sample 3/3"]
+
+
+def test_what_is_the_same_in_the_next_render_is_the_same_object(scene, fake):
+    render(scene)
+    render(scene)
+    bpy.ops.mesh.primitive_plane_add()
+    render(scene)
+    first, second, third = (call[0] for call in fake.calls)
+    assert first is second
+    assert third.instances is not first.instances
+    assert all(a is b for a, b in zip(third.meshes, first.meshes, strict=False))
 
 
 def test_preview_is_small_work_and_leaves_the_stats(scene, fake, monkeypatch):

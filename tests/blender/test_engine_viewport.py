@@ -18,6 +18,7 @@ from svo_engine.errors import Cancelled, GpuError, SceneError
 from svo_engine.film import Film
 from svo_engine.scene.types import Scene, View
 from svo_engine.settings import RenderSettings
+from tests.blender.following import space_of_window
 
 SECONDS = 10.0  # until a thread that does not answer counts as hung
 
@@ -29,6 +30,14 @@ def job(scene=None, width=8, samples=3):
 
 class Gated:
     """Films that come one for each `step`; `wait_for_call` gives the arguments of the next request."""
+
+    status = ""
+
+    def client(self):
+        return SimpleNamespace(films=self.films, close=lambda: None)
+
+    def compile_all(self):
+        """There is nothing to compile."""
 
     def __init__(self):
         self.calls, self.gate, self.called = [], threading.Semaphore(0), threading.Semaphore(0)
@@ -172,10 +181,14 @@ def drawn(monkeypatch, gated):
     viewport.close_all()
 
 
+def graph():
+    return bpy.context.evaluated_depsgraph_get()
+
+
 def region_of(scene, is_lit=True):
     context = looking_through(scene, "PERSP")
-    context.space_data = SimpleNamespace(**vars(context.space_data),
-                                         shading=SimpleNamespace(use_scene_lights_render=is_lit))
+    context.space_data = space_of_window()  # a real one, for it alone can tell what it hides
+    context.space_data.shading.use_scene_lights_render = is_lit
     return context
 
 
@@ -185,44 +198,68 @@ def shown(drawn, scene, extension, monkeypatch):
     lamp = bpy.data.objects.new("Lamp", bpy.data.lights.new("Lamp", "POINT"))
     scene.collection.objects.link(lamp)
     scene.svo.viewport_samples = 2
-    real = viewport.extract  # a 3D viewport can hide objects, which only a real one can tell
-    monkeypatch.setattr(viewport, "extract", lambda depsgraph, space: real(depsgraph))
     engine = Engine()
     shown = viewport.Viewport(engine, str)
-    shown.update(region_of(scene), bpy.context.evaluated_depsgraph_get())
+    shown.update(region_of(scene), graph())
     return shown, engine
 
 
 def test_viewport_asks_for_a_redraw_for_each_film(shown, drawn, gated, scene):
     shown, engine = shown
-    shown.draw(engine, region_of(scene), scene)
+    shown.draw(engine, region_of(scene), graph())
     assert (drawn, shown.status) == ([], ("", "Preparing"))
     gated.step()
     assert until(lambda: shown.poll() and engine.n_redraws == 1)
-    shown.draw(engine, region_of(scene), scene)
+    shown.draw(engine, region_of(scene), graph())
     assert drawn[-1].size == (WIDTH // 2, HEIGHT // 2)
     gated.step(2)
     assert until(lambda: shown.poll() and shown.status == ("", "Sample 2/2"))
-    shown.draw(engine, region_of(scene), scene)
+    shown.draw(engine, region_of(scene), graph())
     assert drawn[-1].size == (WIDTH, HEIGHT)
 
 
 @pytest.mark.parametrize("is_lit", [True, False])
 def test_scene_lights_can_be_switched_off(shown, gated, scene, is_lit):
     shown, engine = shown
-    shown.draw(engine, region_of(scene, is_lit), scene)
+    shown.draw(engine, region_of(scene, is_lit), graph())
     assert len(gated.wait_for_call()[0].lights) == is_lit
+
+
+def test_finished_picture_stays_until_something_changes(shown, gated, scene):
+    shown, engine = shown
+
+    def act(change):
+        change()
+        shown.update(region_of(scene), graph())
+        shown.draw(engine, region_of(scene), graph())
+        gated.step(3)
+
+    act(lambda: None)
+    assert until(lambda: shown.status == ("", "Sample 2/2"))
+    act(lambda: bpy.data.objects["Lamp"].select_set(True))
+    assert len(gated.calls) == 2
+    shown._sync._walk = None  # here no handler tells of the change, so that all is read
+    act(lambda: setattr(bpy.data.lights["Lamp"], "energy", 3.0))
+    assert until(lambda: len(gated.calls) == 4)
+
+
+def test_edited_image_is_found_by_the_timer(shown, monkeypatch):
+    shown, engine = shown
+    monkeypatch.setattr(shown._sync.images, "compare", lambda: True)
+    polls = range(viewport._POLLS_TO_COMPARE)
+    assert all(shown.poll() for _ in polls)
+    assert engine.n_redraws == 1
 
 
 def test_status_tells_a_failure_until_it_is_mended(shown, gated, scene):
     shown, engine = shown
     gated.error = GpuError("The device was lost")
-    shown.draw(engine, region_of(scene), scene)
+    shown.draw(engine, region_of(scene), graph())
     gated.step()
     assert until(lambda: shown.status == ("Error", "The device was lost"))
     gated.error = None
-    shown.update(region_of(scene), bpy.context.evaluated_depsgraph_get())
-    shown.draw(engine, region_of(scene), scene)
+    shown.update(region_of(scene), graph())
+    shown.draw(engine, region_of(scene), graph())
     gated.step(3)
     assert until(lambda: shown.status == ("", "Sample 2/2"))
 
@@ -230,14 +267,14 @@ def test_status_tells_a_failure_until_it_is_mended(shown, gated, scene):
 def test_scene_that_cannot_be_read_is_not_drawn(shown, drawn, scene, monkeypatch):
     shown, engine = shown
 
-    def extract(*_args, **_options):
+    def update(*_args):
         raise SceneError("Mesh 'Cube' is broken")
 
-    monkeypatch.setattr(viewport, "extract", extract)
+    monkeypatch.setattr(shown._sync, "update", update)
     with pytest.raises(SceneError):
-        shown.update(region_of(scene), bpy.context.evaluated_depsgraph_get())
+        shown.update(region_of(scene), graph())
     shown.failure = "Mesh 'Cube' is broken"
-    shown.draw(engine, region_of(scene), scene)
+    shown.draw(engine, region_of(scene), graph())
     assert (drawn, shown.status) == ([], ("Error", "Mesh 'Cube' is broken"))
 
 

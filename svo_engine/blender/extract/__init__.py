@@ -12,11 +12,12 @@ from ...scene.types import Camera, Scene
 from .camera import border, read_camera
 from .images import Images
 from .materials import Materials
-from .placing import Placing
+from .placing import Placing, matrices_of, visits
 from .textures import Textures
+from .visibility import is_seen
 from .world import read_world
 
-__all__ = ["border", "extract"]
+__all__ = ["border", "extract", "scene_camera"]
 
 
 def extract(depsgraph: bpy.types.Depsgraph, *, space: bpy.types.SpaceView3D | None = None,
@@ -33,18 +34,19 @@ def extract(depsgraph: bpy.types.Depsgraph, *, space: bpy.types.SpaceView3D | No
     textures = Textures(images)
     materials = Materials(textures, warn)
     placing = Placing(materials, layer.material_override, warn)
-    for instance in depsgraph.object_instances:
-        if instance.show_self and (space is None or instance.object.visible_in_viewport_get(space)):
-            placing.visit(instance)
+    for instance, matrix in visits(depsgraph, matrices_of(depsgraph)):
+        if instance.show_self and is_seen(instance, space):
+            placing.visit(instance, matrix)
     world = read_world(getattr(layer, "world_override", None) or scene.world, images, warn)
     return Scene(
         meshes=tuple(placing.meshes), instances=placing.instances(), materials=tuple(materials.found),
         textures=tuple(textures.found), images=tuple(images.found), lights=tuple(placing.lights), world=world,
-        camera=_camera(depsgraph, warn, depsgraph.mode == "RENDER" if needs_camera is None else needs_camera),
+        camera=scene_camera(depsgraph, warn, depsgraph.mode == "RENDER" if needs_camera is None else needs_camera),
         film_transparent=scene.render.film_transparent, warnings=tuple(notes))
 
 
-def _camera(depsgraph: Any, warn: Any, is_needed: bool) -> Camera | None:
+def scene_camera(depsgraph: Any, warn: Any, is_needed: bool) -> Camera | None:
+    """The scene's camera; without any None, or SceneError if it is needed."""
     scene = depsgraph.scene_eval
     if scene.camera is not None:
         return read_camera(scene.camera.evaluated_get(depsgraph), scene.render, warn)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 import bpy
 import numpy as np
@@ -17,14 +17,36 @@ MAGENTA = np.array([[[255, 0, 255, 255]]], "u1")
 _ENCODED, _LINEAR = ("sRGB",), ("Linear Rec.709", "scene_linear")
 
 
+class Source(Protocol):
+    """Where Images takes pixels from."""
+
+    def get(self, image: Any, has_straight_alpha: bool, warn: Callable[[str], object]) -> Image:
+        """The same object whenever `image` (a datablock, or None) is asked for in the same way, or alpha is all one."""
+
+
+class Pixels:
+    """Reads each image when it is first asked for."""
+
+    def __init__(self) -> None:
+        self._read: dict[int, Image] = {}
+        self._made: dict[tuple[int, bool], Image] = {}
+
+    def get(self, image: Any, has_straight_alpha: bool, warn: Callable[[str], object]) -> Image:
+        pointer = image.as_pointer() if image else 0
+        if (pointer, has_straight_alpha) not in self._made:
+            if pointer not in self._read:
+                self._read[pointer] = read_image(image, warn)
+            self._made[pointer, has_straight_alpha] = with_alpha(image, self._read[pointer], has_straight_alpha)
+        return self._made[pointer, has_straight_alpha]
+
+
 class Images:
     """Collects images; `found` are those asked for so far, in the order of `Scene.images`."""
 
-    def __init__(self, warn: Callable[[str], object]) -> None:
+    def __init__(self, warn: Callable[[str], object], source: Source | None = None) -> None:
         self.found: list[Image] = []
         self._warn = warn
-        self._read: dict[int, Image] = {}
-        self._index: dict[tuple[int, bool], int] = {}
+        self._source = source or Pixels()
 
     def index(self, image: Any, has_straight_alpha: bool = False) -> int:
         """Where `image` (a datablock, or None) stands in `found`.
@@ -32,42 +54,48 @@ class Images:
         has_straight_alpha  RGB is what the image shows where it is opaque. Blender gives that to a material only if
                             it also reads the image's alpha; otherwise transparent parts are darker.
         """
-        pointer = image.as_pointer() if image else 0
-        if (pointer, has_straight_alpha) not in self._index:
-            if pointer not in self._read:
-                self._read[pointer] = self._read_image(image)
-            made = _with_alpha(image, self._read[pointer], has_straight_alpha)
-            self._index[pointer, has_straight_alpha] = self._place(made)
-        return self._index[pointer, has_straight_alpha]
-
-    def _place(self, made: Image) -> int:
-        """The index of `made`, which stands in `found` already if alpha makes no difference to it."""
-        known = next((i for i, image in enumerate(self.found) if image is made), None)
-        if known is not None:
-            return known
-        self.found.append(made)
-        return len(self.found) - 1
-
-    def _read_image(self, image: Any) -> Image:
-        """Straight alpha for bytes, associated alpha for floats: what Blender holds."""
-        if image is None:
-            return Image("none", MAGENTA, True)
-        width, height = image.size
-        if min(width, height) == 0 or len(image.pixels) != width * height * 4:
-            self._warn(f"Image '{image.name}' {_missing(image)}; it is drawn in magenta")
-            return Image(image.name, MAGENTA, True)
-        if sentence := _defect(image):
-            self._warn(sentence)
-        pixels = np.empty((height, width, 4), "f4")
-        image.pixels.foreach_get(pixels.ravel())
-        if image.alpha_mode == "NONE":
-            pixels[..., 3] = 1
-        if image.is_float:
-            return Image(image.name, np.nan_to_num(pixels))
-        return Image(image.name, np.rint(pixels * 255).astype("u1"), _is_encoded(image, self._warn))
+        return place(self._source.get(image, has_straight_alpha, self._warn), self.found)
 
 
-def _with_alpha(image: Any, raw: Image, is_straight: bool) -> Image:
+def place(made: Image, found: list[Image]) -> int:
+    """The index of `made` in `found`, where it may stand already."""
+    known = next((i for i, image in enumerate(found) if image is made), None)
+    if known is not None:
+        return known
+    found.append(made)
+    return len(found) - 1
+
+
+def read_image(image: Any, warn: Callable[[str], object]) -> Image:
+    """Straight alpha for bytes, associated alpha for floats: what Blender holds."""
+    if image is None:
+        return Image("none", MAGENTA, True)
+    width, height = image.size
+    if min(width, height) == 0 or len(image.pixels) != width * height * 4:
+        warn(f"Image '{image.name}' {_missing(image)}; it is drawn in magenta")
+        return Image(image.name, MAGENTA, True)
+    if sentence := _defect(image):
+        warn(sentence)
+    pixels = np.empty((height, width, 4), "f4")
+    image.pixels.foreach_get(pixels.ravel())
+    if image.alpha_mode == "NONE":
+        pixels[..., 3] = 1
+    if image.is_float:
+        return Image(image.name, np.nan_to_num(pixels, copy=False))
+    return Image(image.name, _bytes(pixels), _is_encoded(image, warn))
+
+
+def _bytes(pixels: np.ndarray) -> np.ndarray:
+    """The u1 that `pixels` were; row by row, for what fits into the processor's cache is quick."""
+    made = np.empty(pixels.shape, "u1")
+    for row, to in zip(pixels, made, strict=True):
+        row *= 255
+        row += 0.5
+        to[...] = row
+    return made
+
+
+def with_alpha(image: Any, raw: Image, is_straight: bool) -> Image:
     """`raw` with the alpha that is asked for; itself if there is nothing to do."""
     pixels = raw.pixels
     is_float = pixels.dtype != np.uint8

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...scene import units
 from ...scene.types import Color, Light
+from .graphs import read_graph
 from .nodes import fed_output, tree_of
 from .reader import Reader
 from .surfaces import surface
@@ -24,7 +25,7 @@ def read_light(lamp: Any, name: str, world_from_object: np.ndarray, warn: Callab
     axes = world_from_object[:3, :3]
     scale = np.linalg.norm(axes, axis=0)
     common: dict[str, Any] = {"name": name, "world_from_light": _rigid(world_from_object, scale),
-                              "casts_shadow": lamp.use_shadow}
+                              "casts_shadow": lamp.use_shadow, "graph": read_graph(tree_of(lamp), lamp)}
     color, normalize = _color(lamp, name, warn), getattr(lamp, "normalize", True)
     if lamp.type == "SUN":
         emitted = units.sun_irradiance(lamp.energy, color, lamp.angle, normalize)

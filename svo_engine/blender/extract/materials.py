@@ -5,15 +5,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, Protocol
 
 import bpy
 
 from ...scene.types import Material
+from .graphs import read_graph
 from .nodes import fed_output, tree_of
 from .reader import Reader
 from .surfaces import NOTHING, surface
 from .textures import Textures
+
+
+class Collector(Protocol):
+    """What collects materials, as Materials does."""
+
+    found: list[Material]
+    uv_maps: list[set[str]]
+
+    def index(self, material: Any) -> int:
+        """Where `material` (an evaluated datablock, or None for an empty slot) stands in `found`."""
 
 
 class Materials:
@@ -52,9 +63,10 @@ def _read(material: Any, reader: Reader) -> Material:
     if tree is None:
         r, g, b, _ = material.diffuse_color
         return Material(material.name, (r, g, b), material.roughness, material.metallic,
-                        specular_level=material.specular_intensity)
+                        specular_level=material.specular_intensity, pass_index=material.pass_index)
     for name in ("Volume", "Displacement"):
         port = fed_output(tree, name)
         if port is not None and not port.is_constant:
             reader.warn(f"{name.lower()} is left out")
-    return replace(surface(reader, fed_output(tree, "Surface")), name=material.name)
+    return replace(surface(reader, fed_output(tree, "Surface")), name=material.name,
+                   graph=read_graph(tree, material), pass_index=material.pass_index)

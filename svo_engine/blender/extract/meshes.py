@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...scene.meshes import make_mesh
-from ...scene.types import Mesh
+from ...scene.types import Color, Mesh
+from .attributes import array, read_attributes
 
 
 def read_mesh(owner: Any, warn: Callable[[str], object]) -> Mesh | None:
@@ -31,24 +32,35 @@ def _read(mesh: Any, name: str, warn: Callable[[str], object]) -> Mesh | None:
     n_corners, n_triangles = len(mesh.loops), len(mesh.loop_triangles)
     if n_triangles == 0:
         return None
-    positions = _array(mesh.attributes["position"].data, "vector", (len(mesh.vertices), 3), "f4")
-    vertex_of_corner = _array(mesh.attributes[".corner_vert"].data, "value", (n_corners,), "i4")
-    normals = _array(mesh.corner_normals, "vector", (n_corners, 3), "f4")
+    positions = array(mesh.attributes["position"].data, "vector", (len(mesh.vertices), 3), "f4")
+    vertex_of_corner = array(mesh.attributes[".corner_vert"].data, "value", (n_corners,), "i4")
+    normals = array(mesh.corner_normals, "vector", (n_corners, 3), "f4")
     corners = _corners(mesh, n_triangles)
+    low, size = _texture_space(mesh)
+    color = mesh.attributes.default_color_name
     layer = uv_map_of(mesh)
-    uvs = None if layer is None else _array(layer.uv, "vector", (n_corners, 2), "f4")[corners]
-    made, warnings = make_mesh(name, positions, vertex_of_corner[corners], normals[corners], uvs,
-                               _slots(mesh, n_triangles))
+    uv_map = layer.name if layer else ""
+    raw = read_attributes(mesh, corners, (uv_map, color), lambda left_out: warn(f"Mesh '{name}': {left_out}"))
+    made, warnings = make_mesh(
+        name, positions, vertex_of_corner[corners], normals[corners], material_slots=_slots(mesh, n_triangles),
+        raw=raw, uv_map=uv_map, color=color if any(a.name == color for a in raw) else "", generated_low=low,
+        generated_size=size)
     for warning in warnings:
         warn(warning)
     return made if len(made.triangles) else None
+
+
+def _texture_space(mesh: Any) -> tuple[Color, Color]:
+    """Lowest corner and size of the box in which generated coordinates go from 0 to 1."""
+    (x, y, z), (a, b, c) = mesh.texspace_location, mesh.texspace_size
+    return (x - a, y - b, z - c), (2 * a, 2 * b, 2 * c)
 
 
 def _corners(mesh: Any, n_triangles: int) -> np.ndarray:
     """Corner indices (n_triangles, 3) i4; known without reading them if all faces are triangles."""
     if n_triangles == len(mesh.polygons) and len(mesh.loops) == 3 * n_triangles:
         return np.arange(3 * n_triangles, dtype="i4").reshape(-1, 3)
-    return _array(mesh.loop_triangles, "loops", (n_triangles, 3), "i4")
+    return array(mesh.loop_triangles, "loops", (n_triangles, 3), "i4")
 
 
 def _slots(mesh: Any, n_triangles: int) -> np.ndarray | None:
@@ -56,13 +68,6 @@ def _slots(mesh: Any, n_triangles: int) -> np.ndarray | None:
     attribute = mesh.attributes.get("material_index")
     if attribute is None or attribute.domain != "FACE" or attribute.data_type != "INT":
         return None
-    of_face = _array(attribute.data, "value", (len(mesh.polygons),), "i4")
-    faces = _array(mesh.loop_triangle_polygons, "value", (n_triangles,), "i4")
+    of_face = array(attribute.data, "value", (len(mesh.polygons),), "i4")
+    faces = array(mesh.loop_triangle_polygons, "value", (n_triangles,), "i4")
     return np.maximum(of_face, 0)[faces]
-
-
-def _array(elements: Any, name: str, shape: tuple[int, ...], dtype: str) -> np.ndarray:
-    """Attribute `name` of all elements. Blender copies at once if `dtype` is its own, else one by one."""
-    values = np.empty(shape, dtype)
-    elements.foreach_get(name, values.ravel())
-    return values

@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from ...scene.types import Instances, Light, Mesh
+from .identities import Identities
 from .lights import read_light
-from .materials import Materials
+from .materials import Collector
 from .meshes import read_mesh, uv_map_of
 
 # Evaluated geometry that Cycles draws and we do not
@@ -18,38 +19,66 @@ _LEFT_OUT = {"VOLUME": "a volume", "CURVES": "hair", "POINTCLOUD": "a point clou
              "GPENCIL": "a grease pencil"}
 
 
+# In place of a matrix with numbers that are not finite
+LOST = np.zeros((4, 4))
+
+
+def matrices_of(depsgraph: Any) -> np.ndarray:
+    """(n, 4, 4) f4, those of all instances: read without making a Python object of each, but transposed, as Blender
+    has them."""
+    matrices = np.empty((len(depsgraph.object_instances), 4, 4), "f4")
+    depsgraph.object_instances.foreach_get("matrix_world", matrices.ravel())
+    return matrices
+
+
+def visits(depsgraph: Any, matrices: np.ndarray) -> Iterator[tuple[Any, np.ndarray]]:
+    """Each instance with its matrix (4, 4) f8, or LOST. It holds only until the next one is asked for."""
+    is_finite = np.isfinite(matrices).all((1, 2)).tolist()
+    matrices = matrices.transpose(0, 2, 1).astype("f8")
+    for instance, matrix, is_there in zip(depsgraph.object_instances, matrices, is_finite, strict=True):
+        yield instance, matrix if is_there else LOST
+
+
 class Placing:
     """Collects what `visit` is given, one object instance of the depsgraph at a time."""
 
-    def __init__(self, materials: Materials, override: Any, warn: Callable[[str], object]) -> None:
+    def __init__(self, materials: Collector, override: Any, warn: Callable[[str], object],
+                 read: Callable[..., Mesh | None] = read_mesh) -> None:
         self.meshes: list[Mesh] = []
         self.lights: list[Light] = []
         self._materials = materials
         self._override = override
         self._warn = warn
+        self._read = read
         self._mesh_index: dict[int, int] = {}  # by address of the evaluated data: their names are not unique
         self._uv_maps: list[str] = []
         self._names: list[str] = []
         self._mesh: list[int] = []
         self._matrices: list[np.ndarray] = []
         self._slots: list[tuple[int, ...]] = []
+        self._slots_of: dict[tuple[int, int], tuple[int, ...]] = {}  # by address of the original object and its data
+        self._identities = Identities()
 
-    def visit(self, instance: Any) -> None:
-        """Add what `instance` shows. Its matrix holds only until the next one is asked for."""
+    def visit(self, instance: Any, matrix: np.ndarray) -> None:
+        """Add what `instance` shows at `matrix`, one of `matrices_of`."""
         owner = instance.object
         kind = owner.type
         if kind not in ("MESH", "LIGHT") and kind not in _LEFT_OUT:
             return
-        matrix = np.array(instance.matrix_world, "f8")
-        if not np.isfinite(matrix).all():
+        if matrix is LOST:
             self._warn(f"Object '{owner.name}' is left out: its place is not a finite number")
         elif kind == "MESH":
-            self._place(owner, matrix)
+            self._place(instance, owner, matrix)
         elif kind == "LIGHT":
             light = read_light(owner.data, owner.name, matrix, self._warn)
             self.lights += [] if light is None else [light]
         else:
             self._warn(f"Object '{owner.name}' is {_LEFT_OUT[kind]}, which is not supported; it is left out")
+
+    @property
+    def n_placed(self) -> int:
+        """Instances so far."""
+        return len(self._names)
 
     def instances(self) -> Instances:
         """Every visible placing of a mesh so far."""
@@ -58,24 +87,28 @@ class Placing:
         first_slot = np.cumsum([0, *map(len, self._slots)])
         slots = [material for materials in self._slots for material in materials]
         return Instances(tuple(self._names), np.array(self._mesh, "u4"), np.stack(self._matrices),
-                         first_slot.astype("u4"), np.array(slots, "u4"))
+                         first_slot.astype("u4"), np.array(slots, "u4"), **self._identities.arrays())
 
-    def _place(self, owner: Any, matrix: np.ndarray) -> None:
+    def _place(self, instance: Any, owner: Any, matrix: np.ndarray) -> None:
         index = self._index(owner)
         if index < 0:
             return
         self._names.append(owner.name)
         self._mesh.append(index)
         self._matrices.append(matrix)
-        self._slots.append(tuple(self._materials.index(m) for m in self._slot_materials(owner)))
-        for material in self._slots[-1]:
-            self._check_uv_map(material, index)
+        self._identities.add(instance, owner)
+        key = owner.original.as_pointer(), owner.data.as_pointer()
+        if key not in self._slots_of:
+            self._slots_of[key] = tuple(self._materials.index(m) for m in self._slot_materials(owner))
+            for material in self._slots_of[key]:
+                self._check_uv_map(material, index)
+        self._slots.append(self._slots_of[key])
 
     def _index(self, owner: Any) -> int:
         """Where the owner's mesh stands in `meshes`; -1 if it has no triangles."""
         pointer = owner.data.as_pointer()
         if pointer not in self._mesh_index:
-            made = read_mesh(owner, self._warn)
+            made = self._read(owner, self._warn)
             self._mesh_index[pointer] = -1 if made is None else len(self.meshes)
             if made is not None:
                 layer = uv_map_of(owner.data)

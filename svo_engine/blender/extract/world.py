@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...scene.types import World
+from .graphs import read_graph
 from .images import Images
 from .mapping import lookup_from_native
 from .nodes import Port, fed_output, tree_of
@@ -57,10 +58,10 @@ def read_world(world: Any, images: Images, warn: Callable[[str], object]) -> Wor
     volume = fed_output(tree, "Volume")
     if volume is not None and not volume.is_constant:
         reader.warn("volume is left out")
-    background = surface(reader, fed_output(tree, "Surface"))
+    background, graph = surface(reader, fed_output(tree, "Surface")), read_graph(tree, world)
     if background.emission_texture < 0:
-        return World(background.emission)
-    return World(background.emission, *environments.found[background.emission_texture])
+        return World(background.emission, graph=graph)
+    return World(background.emission, *environments.found[background.emission_texture], graph=graph)
 
 
 def _as_rotation(matrix: np.ndarray) -> np.ndarray:

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Node trees, copied for scene/graph.py. Nothing here knows what a node does or fails for a strange one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from typing import Any
+
+import bpy
+
+from ...scene.graph import Graph, Group, Link, Node, Plain
+
+# What of Blender's settings says how a tree is meant
+_OF_OWNER = ("displacement_method", "use_transparent_shadow", "use_bump_map_correction", "max_vertex_displacement")
+_OF_CYCLES = ("displacement_method", "use_transparent_shadow", "use_bump_map_correction", "emission_sampling",
+              "volume_sampling", "volume_interpolation", "volume_step_rate", "volume_step_size", "sampling_method",
+              "sample_map_resolution", "use_multiple_importance_sampling", "cast_shadow", "max_bounces", "is_portal",
+              "is_caustics_light")
+_RAYS = ("camera", "diffuse", "glossy", "transmission", "scatter", "shadow")
+
+_NOT_READ = {"color_mapping", "bytecode", "bytecode_hash", "use_auto_update"}
+_MAPPED = ("vector_type", "translation", "rotation", "scale", "mapping_x", "mapping_y", "mapping_z")
+_IMAGE_USER = ("frame_current", "frame_duration", "frame_start", "frame_offset", "use_cyclic", "tile")
+
+_SCALARS = {type(None), bool, int, float, str}
+
+# The socket at the end of a group that makes a new one of what is linked to it
+_VIRTUAL = "__extend__"
+
+# Between a curve's first and last point
+N_SAMPLES = 257
+
+
+def read_graph(tree: Any, owner: Any) -> Graph | None:
+    """What the active output of `tree`, the node tree of the datablock `owner`, reaches; None without a tree."""
+    if tree is None:
+        return None
+    end = tree.get_output_node("CYCLES") or tree.get_output_node("EEVEE")
+    groups: dict[str, Any] = {}
+    nodes, found, aovs = _read(tree, end, groups)
+    ends = {name: link for name, link in found.items() if isinstance(link, Link)}
+    return Graph(nodes, ends.get("Surface"), ends.get("Volume"), ends.get("Displacement"), aovs,
+                 _read_groups(groups), _settings_of(owner))
+
+
+def _read_groups(trees: dict[str, Any]) -> dict[str, Group]:
+    """All groups that `trees` name and that are named inside of them, each once."""
+    made: dict[str, Group] = {}
+    while new := [name for name in trees if name not in made]:
+        for name in new:
+            nodes = [n for n in trees[name].nodes if n.bl_idname == "NodeGroupOutput"]
+            end = next((n for n in nodes if n.is_active_output), None)
+            made[name] = Group(*_read(trees[name], end, trees))
+    return {name: made[name] for name in sorted(made)}
+
+
+def _read(tree: Any, end: Any, groups: dict[str, Any]) -> tuple[tuple[Node, ...], dict[str, Plain], tuple[int, ...]]:
+    """The nodes of `tree` that its output `end` (or None) and its AOV outputs reach, what feeds the output, and the AOV
+    outputs among them. Groups that are named are added to `groups`."""
+    feeds = _feeds(tree)
+    aovs = [n for n in tree.nodes if n.bl_idname == "ShaderNodeOutputAOV"]
+    reached = _reached(feeds, [*aovs, *([] if end is None else [end])])
+    place: dict[int, int] = {}
+    for node in tree.nodes:
+        pointer = node.as_pointer()
+        if pointer in reached and (end is None or pointer != end.as_pointer()):
+            place[pointer] = len(place)
+    used = [node for node in tree.nodes if node.as_pointer() in place]
+    made = tuple(Node(n.bl_idname, _settings(n, groups), _inputs(n, feeds, place), n.name, _through(n)) for n in used)
+    found = {} if end is None else _inputs(end, feeds, place)
+    return made, found, tuple(place[n.as_pointer()] for n in aovs)
+
+
+# Of a node's address: for each address of its fed inputs, the node before it and that one's output
+_Feeds = dict[int, dict[int, tuple[Any, str]]]
+
+
+def _feeds(tree: Any) -> _Feeds:
+    """All links that count. One walk over them: to ask each socket for its own is quadratic."""
+    feeds: _Feeds = {}
+    for link in tree.links:
+        if link.is_valid and not link.is_muted and link.from_node is not None and link.to_node is not None:
+            sockets = feeds.setdefault(link.to_node.as_pointer(), {})
+            sockets.setdefault(link.to_socket.as_pointer(), (link.from_node, link.from_socket.identifier))
+    return feeds
+
+
+def _reached(feeds: _Feeds, ends: Iterable[Any]) -> set[int]:
+    """Addresses of the nodes `ends` and of all before them."""
+    waiting = [node.as_pointer() for node in ends]
+    reached = set(waiting)
+    while waiting:
+        for before, _ in feeds.get(waiting.pop(), {}).values():
+            pointer = before.as_pointer()
+            if pointer not in reached:
+                reached.add(pointer)
+                waiting.append(pointer)
+    return reached
+
+
+def _inputs(node: Any, feeds: _Feeds, place: dict[int, int]) -> dict[str, Plain]:
+    fed = feeds.get(node.as_pointer(), {})
+    made: dict[str, Plain] = {}
+    for socket in node.inputs:
+        if socket.is_unavailable or (identifier := socket.identifier) == _VIRTUAL:
+            continue
+        before = fed.get(socket.as_pointer()) if fed else None
+        if before is not None and (number := place.get(before[0].as_pointer())) is not None:
+            made[identifier] = Link(number, before[1])
+        else:
+            made[identifier] = None if socket.hide_value else _plain(getattr(socket, "default_value", None))
+    return made
+
+
+def _through(node: Any) -> dict[str, str] | None:
+    """Of a muted node, which input each output passes on."""
+    if not node.mute:
+        return None
+    return {link.to_socket.identifier: link.from_socket.identifier for link in node.internal_links}
+
+
+@cache
+def _names(kind: Any) -> tuple[str, ...]:
+    """The properties that nodes of a kind have more than all others have."""
+    left_out = _NOT_READ.union(bpy.types.ShaderNode.bl_rna.properties.keys())
+    return tuple(p.identifier for p in kind.bl_rna.properties if p.identifier not in left_out)
+
+
+def _settings(node: Any, groups: dict[str, Any]) -> dict[str, Plain]:
+    made: dict[str, Plain] = {}
+    kind: Any = type(node)
+    for name in _names(kind):
+        value = getattr(node, name, None)
+        _set(made, name, value)
+        if isinstance(value, bpy.types.NodeTree):
+            groups.setdefault(value.name_full, value)
+    if node.bl_idname in ("ShaderNodeRGB", "ShaderNodeValue", "ShaderNodeNormal"):  # their value is their output's
+        made["value"] = _plain(node.outputs[0].default_value)
+    return made
+
+
+def _set(made: dict[str, Plain], name: str, value: Any) -> None:
+    """Add the property `name`; records with their own properties, datablocks with what of them is needed."""
+    if type(value) in _SCALARS:
+        made[name] = value
+    elif isinstance(value, bpy.types.ColorRamp):
+        stops = tuple((e.position, *e.color) for e in value.elements)
+        made[name] = value.color_mode, value.interpolation, value.hue_interpolation, stops
+    elif isinstance(value, bpy.types.CurveMapping):
+        made[name], made[f"{name}.samples"] = _curves(value)
+    elif isinstance(value, bpy.types.TexMapping):
+        made.update({f"{name}.{part}": _plain(getattr(value, part)) for part in _MAPPED})
+    elif isinstance(value, bpy.types.ImageUser):
+        made.update({f"{name}.{part}": _plain(getattr(value, part)) for part in _IMAGE_USER})
+    else:
+        made[name] = _plain(value)
+        if isinstance(value, bpy.types.Object):
+            made[f"{name}.matrix_world"] = tuple(x for row in value.matrix_world for x in row)
+        elif isinstance(value, bpy.types.Text):
+            made[f"{name}.text"] = value.as_string()
+
+
+def _curves(mapping: Any) -> tuple[Plain, Plain]:
+    """All curves' points, and their values at even steps. Evaluating is Blender's, with all kinds of handles."""
+    mapping.initialize()
+    clip = (mapping.clip_min_x, mapping.clip_min_y, mapping.clip_max_x, mapping.clip_max_y)
+    points = tuple(tuple((*p.location, p.handle_type) for p in curve.points) for curve in mapping.curves)
+    samples = tuple(_samples(mapping, *pair) for pair in zip(mapping.curves, points, strict=True))
+    levels = tuple(mapping.black_level), tuple(mapping.white_level)
+    return (mapping.extend, clip if mapping.use_clip else None, *levels, points), samples
+
+
+def _samples(mapping: Any, curve: Any, points: Plain) -> tuple[float, ...]:
+    if len(points) == 2 and all(x == y for x, y, _ in points):
+        return ()
+    first, last = points[0][0], points[-1][0]
+    steps = (first + (last - first) * i / (N_SAMPLES - 1) for i in range(N_SAMPLES))
+    return tuple(mapping.evaluate(curve, x) for x in steps)
+
+
+def _plain(value: Any) -> Plain:
+    """Numbers, strings and tuples as they are, a datablock's full name, None for all else."""
+    if type(value) in _SCALARS:
+        return value
+    if isinstance(value, bpy.types.ID):
+        return value.name_full
+    return value[:] if hasattr(value, "__len__") else None
+
+
+def _settings_of(owner: Any) -> dict[str, Plain]:
+    """The settings of a material, world or lamp that say how its tree is meant, as far as this Blender has them."""
+    cycles, rays = getattr(owner, "cycles", None), getattr(owner, "cycles_visibility", None)
+    made = {name: _plain(getattr(cycles, name)) for name in _OF_CYCLES if hasattr(cycles, name)}
+    made.update({name: _plain(getattr(owner, name)) for name in _OF_OWNER if hasattr(owner, name)})
+    made.update({f"visible.{name}": bool(getattr(rays, name)) for name in _RAYS if hasattr(rays, name)})
+    return made

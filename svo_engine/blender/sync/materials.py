@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Materials, each read by itself, so that an edit of one reads no other; then put together as the Scene has them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from ...scene.types import Image, Material, Texture, World
+from ..extract.images import Images, place
+from ..extract.materials import Materials
+from ..extract.textures import Textures
+from ..extract.world import read_world
+from .changes import Uid, uid_of
+from .images import KeptImages
+
+_TEXTURES = tuple(f.name for f in fields(Material) if f.name.endswith("_texture"))
+
+
+@dataclass(frozen=True, eq=False)
+class Read:
+    """A material or world as if there were no other: its textures and images are numbered from 0.
+
+    uids  of the images
+    """
+
+    what: Any
+    textures: tuple[Texture, ...]
+    images: tuple[Image, ...]
+    uids: frozenset[Uid]
+    uv_maps: frozenset[str]
+    notes: tuple[str, ...]
+
+
+class KeptMaterials:
+    """A Collector for `extract.placing.Placing`, for one walk after another."""
+
+    def __init__(self, images: KeptImages) -> None:
+        self.n_read = 0
+        self.found: list[Material] = []
+        self.uv_maps: list[set[str]] = []
+        self.order: list[Uid] = []
+        self._images = images
+        self._read: dict[Uid, Read] = {}
+        self._index: dict[Uid, int] = {}
+        self._warn: Callable[[str], object] = lambda _sentence: None
+
+    def begin(self, warn: Callable[[str], object]) -> None:
+        """Before a walk: none is used yet."""
+        self.found, self.uv_maps, self.order, self._index, self._warn = [], [], [], {}, warn
+
+    def end(self) -> None:
+        """After a walk: what it has not used is given up."""
+        self._read = {uid: self._read[uid] for uid in self.order}
+
+    def index(self, material: Any) -> int:
+        uid = uid_of(material.original) if material else 0
+        if uid not in self._index:
+            if uid not in self._read:
+                self._read[uid] = self._read_alone(material)
+            read = self._read[uid]
+            for note in read.notes:
+                self._warn(note)
+            self._index[uid] = len(self.found)
+            self.order.append(uid)
+            self.found.append(read.what)
+            self.uv_maps.append(set(read.uv_maps))
+        return self._index[uid]
+
+    def forget(self) -> None:
+        """Have all read again at the next walk."""
+        self._read = {}
+
+    def drop(self, materials: Iterable[Uid], images: frozenset[Uid]) -> None:
+        """Have those materials read again at the next walk, and those that read these images."""
+        for uid in [uid for uid, read in self._read.items() if read.uids & images] + list(materials):
+            self._read.pop(uid, None)
+
+    def follow(self, changed: dict[Uid, Any]) -> bool:
+        """Read again those that are used, without a walk; False if that does not do: warnings stand in its order."""
+        for uid in changed.keys() & self._index.keys():
+            last = self._read[uid]
+            read = self._read[uid] = self._read_alone(changed[uid])
+            if (read.notes, read.uv_maps) != (last.notes, last.uv_maps):
+                return False
+        return True
+
+    def images_of(self, uid: Uid) -> frozenset[Uid]:
+        """The images that a material reads; none if nothing shows it."""
+        return self._read[uid].uids if uid in self._read else frozenset()
+
+    def used(self) -> list[Read]:
+        """All that the last walk has found, in its order."""
+        return [self._read[uid] for uid in self.order]
+
+    def _read_alone(self, material: Any) -> Read:
+        self.n_read += 1
+        notes: dict[str, None] = {}
+        images = _Noted(notes.setdefault, self._images)
+        materials = Materials(textures := Textures(images), notes.setdefault)
+        materials.index(material)
+        return Read(materials.found[0], tuple(textures.found), tuple(images.found), frozenset(images.uids),
+                    frozenset(materials.uv_maps[0]), tuple(notes))
+
+
+class _Noted(Images):
+    """Images that tell whose they are."""
+
+    def __init__(self, warn: Callable[[str], object], source: KeptImages) -> None:
+        super().__init__(warn, source)
+        self.uids: set[Uid] = set()
+
+    def index(self, image: Any, has_straight_alpha: bool = False) -> int:
+        self.uids |= {uid_of(image)} if image else set()
+        return super().index(image, has_straight_alpha)
+
+
+def read_world_alone(world: Any, source: KeptImages) -> Read:
+    """The evaluated datablock `world`, or None."""
+    notes: dict[str, None] = {}
+    images = _Noted(notes.setdefault, source)
+    read = read_world(world, images, notes.setdefault)
+    return Read(read, (), tuple(images.found), frozenset(images.uids), frozenset(), tuple(notes))
+
+
+def joined(used: list[Read], world: Read) -> dict[str, Any]:
+    """Materials, textures, images and world of a Scene: each texture and image stands there once."""
+    images: list[Image] = []
+    textures: list[Texture] = []
+    materials = []
+    for read in used:
+        image_of = [place(image, images) for image in read.images]
+        texture_of = [_place(replace(texture, image=image_of[texture.image]), textures) for texture in read.textures]
+        materials.append(_renumbered(read.what, texture_of))
+    image_of = [place(image, images) for image in world.images]
+    return {"materials": tuple(materials), "textures": tuple(textures), "images": tuple(images),
+            "world": _turned(world.what, image_of)}
+
+
+def _renumbered(material: Material, texture_of: list[int]) -> Material:
+    changed = {name: texture_of[i] for name in _TEXTURES if (i := getattr(material, name)) >= 0}
+    return replace(material, **changed) if changed else material
+
+
+def _turned(world: World, image_of: list[int]) -> World:
+    return replace(world, image=image_of[world.image]) if world.image >= 0 else world
+
+
+def _place(texture: Texture, found: list[Texture]) -> int:
+    if texture not in found:
+        found.append(texture)
+    return found.index(texture)
