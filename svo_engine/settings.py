@@ -138,6 +138,10 @@ class RenderSettings:
                                          "Light Injection", low=0, high=1)
     injection_shininess: float = _setting(32.0, "Shininess", "Blinn-Phong's exponent alpha", "Light Injection", low=1,
                                           high=1000)
+    skip_unneeded: bool = _setting(True, "Skip What Is Not Needed",
+                                   "For developers: off, all is done that any scene could need; the picture is the "
+                                   "same",
+                                   "Debug")
     passes: tuple[str, ...] = ()
 
     def for_viewport(self) -> RenderSettings:

@@ -11,7 +11,10 @@ from typing import Any
 import numpy as np
 
 from svo_engine.gpu import glsl
+from svo_engine.gpu.buffer import Buffer
+from svo_engine.gpu.compiler import Compiler
 from svo_engine.gpu.device import Device
+from svo_engine.gpu.program import Program
 from svo_engine.scene import layouts
 
 _VECTORS = {"f": ("float", "vec"), "u": ("uint", "uvec"), "i": ("int", "ivec")}
@@ -31,25 +34,18 @@ def evaluate(device: Device, result: str, expression: str, includes: Sequence[st
     n = len(next(iter(inputs.values())))
     base, width = _BASES[result[0]], int(result[-1]) if result[-1].isdigit() else 1
     source = _source(result, base, expression, includes, prelude, inputs, constants)
-    program: Any = device.ctx.compute_shader(source.text)
+    names, compiler = glsl.names_of([source]), Compiler(device.calls)
+    program = Program(device.calls, compiler.finish(compiler.start([source])), [source])
     with device.scope() as scope:
         out = scope.buffer("result", 16 * n, clear=True)
         blocks = {**(buffers or {}), **{f"In_{name}": _padded(rows) for name, rows in inputs.items()}, "Result": out}
-        for slot, (name, block) in enumerate(blocks.items()):
-            if name in program:
-                program[name].binding = slot
-                made = block if hasattr(block, "bind_to_storage_buffer") else scope.buffer(name, block)
-                made.bind_to_storage_buffer(slot)
-        for slot, (name, texture) in enumerate((textures or {}).items()):
-            if name in program:
-                device.calls["glProgramUniform1i"](program.glo, program[name].location, slot)
-                texture.use(slot)
-        for name, value in (uniforms or {}).items():
-            if name in program:
-                program[name].value = tuple(value.T.ravel().tolist()) if isinstance(value, np.ndarray) else value
-        program["u_n"].value = n
-        program.run(-(-n // 32))
-        device.ctx.memory_barrier()
+        made = {name: block if isinstance(block, Buffer) else scope.buffer(name, block)
+                for name, block in blocks.items()}
+        program.bind(device.bindings, {**dict.fromkeys((*names.buffers, *names.textures)), **made, **(textures or {})})
+        program.set({**(uniforms or {}), "u_n": n})
+        device.bindings.program(program.glo)
+        device.calls["glDispatchCompute"](-(-n // 32), 1, 1)
+        device.calls["glMemoryBarrier"](0xFFFFFFFF)
         values = np.frombuffer(out.read(), base).reshape(n, 4)[:, :width].copy()
     program.release()
     return values.ravel() if width == 1 else values

@@ -31,7 +31,7 @@ def _session() -> Session:
 
 
 def _thread() -> GpuThread:
-    return _session()._opened()[0]
+    return _session().opened().thread
 
 
 @pytest.fixture(scope="session")

@@ -15,6 +15,7 @@ from svo_engine.passes.cache import PARTS, light_cache, link
 from svo_engine.passes.lights import make_lights
 from svo_engine.passes.lights.glow import make_glow
 from svo_engine.passes.octree import Octree, build_octree
+from svo_engine.passes.tracer import make_rest, tracer_of
 from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.passes.voxelize import Grid
 from svo_engine.scene import layouts
@@ -69,7 +70,7 @@ def surfels_of(device: Device, scene: Scene, n: int) -> Surfels:
     """The surfels of `scene` in an octree of n^3 voxels."""
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        octree = build_octree(device, gpu_scene, n)
+        octree = build_octree(device, *gpu_scene.matter, n)
         with octree.scope:
             return read_surfels(gpu_scene, octree)
 
@@ -96,12 +97,15 @@ def lit_surfels(device: Device, scene: Scene, n: int = 32, rays: int = 16, point
             made.callback(result.scope.close)
             return result
 
-        gpu_scene = keep(upload(device, scene))
-        octree, trees = keep(build_octree(device, gpu_scene, n)), keep(build_meshes(device, scene.meshes))
-        bvh, glow = keep(build_bvh(device, gpu_scene, trees)), keep(make_glow(device, gpu_scene))
-        lights = keep(make_lights(device, gpu_scene, glow))
-        links = keep(link(device, gpu_scene, octree, bvh, lights, rays, points))
-        cache = keep(light_cache(device, gpu_scene, links, bvh, lights, bounces))
+        gpu_scene: GpuScene = keep(upload(device, scene))
+        octree, trees = keep(build_octree(device, *gpu_scene.matter, n)), keep(build_meshes(device, scene.meshes))
+        bvh = keep(build_bvh(device, gpu_scene.placing, trees))
+        tracer = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
+        placing, surfaces, sky, world = gpu_scene.placing, gpu_scene.surfaces, gpu_scene.sky, gpu_scene.scene.world
+        glow = keep(make_glow(device, placing, surfaces, sky, world))
+        lights = keep(make_lights(device, gpu_scene.lamps, glow))
+        links = keep(link(device, placing, surfaces, octree, tracer, glow, sky, world, rays, points))
+        cache = keep(light_cache(device, placing, surfaces, links, tracer, lights, sky, world, bounces))
         surfels, n_bounces = read_surfels(gpu_scene, octree), cache.n_bounces()
         bits = cache.entries.read(16 * PARTS * 2 * len(surfels.rows)) if len(surfels.rows) else b""
     parts = np.frombuffer(bits, "f4").astype("f8").reshape(PARTS, len(surfels.rows), 2, 4)[..., :3]

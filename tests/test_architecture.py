@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from svo_engine.scene import layouts
-from tools.house import layers, references, shaders, text
+from tools.house import glslang, layers, references, shaders, text
 
 SPDX = text.SPDX
 
@@ -18,6 +18,33 @@ SPDX = text.SPDX
 @pytest.mark.parametrize("rule", [layers, shaders, text, references], ids=lambda rule: rule.__name__.rpartition(".")[2])
 def test_the_tree_keeps_the_rules(rule, root):
     assert rule.breaches(root) == []
+
+
+@pytest.mark.skipif(not glslang.is_here(), reason=glslang.MISSING)
+@pytest.mark.parametrize(("path", "text", "sentence"), [
+    ("a/x.comp.glsl", '#include "lib/y.glsl"\nvoid main() { int i = none; }\n', "shaders/a/x.comp.glsl:2: 'none'"),
+    ("lib/y.glsl", "const bool IS_ON = false;\n\nfloat y = 1.0 +;\n", "shaders/lib/y.glsl:3: '' :  syntax error"),
+    ("lib/y.glsl", "const bool IS_ON = false;\nfloat y[IS_ON ? 0 : 1];\n", "shaders/lib/y.glsl:2: "),
+    ("a/z.frag.glsl", "in vec2 c;\nout vec4 d;\nvoid main() { d = c.xyxy; }\n", "shaders/a/z.vert.glsl: ERROR: "),
+])
+def test_what_other_compilers_would_not_take_is_caught_at_its_line(tmp_path, path, text, sentence):
+    files = {"a/x.comp.glsl": '#include "lib/y.glsl"\nvoid main() { }\n', "lib/y.glsl": "const bool IS_ON = false;\n",
+             "a/z.vert.glsl": "out vec3 c;\nvoid main() { c = vec3(0.0); }\n",
+             "a/z.frag.glsl": "in vec3 c;\nout vec4 d;\nvoid main() { d = c.xyzz; }\n"}
+    for name, content in {**files, path: text}.items():
+        (tmp_path / "shaders" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "shaders" / name).write_text(content)
+    found = glslang.breaches(tmp_path)
+    assert found and found[0].startswith(sentence), found
+    for name, content in files.items():
+        (tmp_path / "shaders" / name).write_text(content)
+    assert glslang.breaches(tmp_path) == []
+
+
+@pytest.mark.skipif(not glslang.is_here(), reason=glslang.MISSING)
+def test_other_compilers_take_all_programs(root):
+    assert glslang.breaches(root) == []
+    assert ["raster/visibility.vert.glsl", "raster/visibility.frag.glsl"] in glslang.programs(root / "shaders")
 
 
 def test_layouts_of_shaders_are_those_of_the_host(root):
@@ -44,10 +71,10 @@ for module in pkgutil.walk_packages(svo_engine.__path__, "svo_engine."):
     ("scene.types", "def f():\n    from ..render import Session", "render.Session"),
     ("gpu.device", "from ..scene.types import Scene", "scene.types.Scene"),
     ("gpu.device", "from .. import settings", "settings"),
-    ("passes.light", "import moderngl.error", "moderngl"),
+    ("passes.light", "import glcontext.egl", "glcontext"),
     ("passes.light", "from ..render import render", "render.render"),
     ("render", "import bpy", "bpy"),
-    ("blender.engine", "import moderngl", "moderngl"),
+    ("blender.engine", "import glcontext", "glcontext"),
     ("blender.engine", "from ..passes.light import light", "passes.light.light"),
     ("blender.engine", "if True:\n    from .. import passes", "passes"),
     ("film", "import OpenEXR", "outside a function"),
@@ -64,7 +91,7 @@ def test_forbidden_import_is_caught(module, source, blamed):
 @pytest.mark.parametrize(("module", "source"), [
     ("scene.types", "import json\nimport numpy as np\nfrom . import units\nfrom ..errors import SceneError"),
     ("film", "def f():\n    import OpenEXR"),
-    ("gpu.device", "import moderngl\nfrom .scope import GpuScope"),
+    ("gpu.device", "import glcontext\nfrom .scope import GpuScope"),
     ("passes.light", "from ..gpu.device import Device\nfrom .voxelize import Voxels"),
     ("render", "from .passes import light, voxelize\nfrom .gpu import device"),
     ("blender.engine", "import bpy\nfrom ..render import Session\nfrom .. import __version__, film"),

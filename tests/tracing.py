@@ -10,8 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from svo_engine.gpu.buffer import Buffer
 from svo_engine.gpu.device import Device
-from svo_engine.passes.bvh import TRACE, TRACE_UNIFORMS, Bvh, build_bvh, build_meshes
+from svo_engine.gpu.texels import Texels
+from svo_engine.passes.bvh import build_bvh, build_meshes
+from svo_engine.passes.tracer import Tracer, make_rest, tracer_of
 from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.scene.types import Scene
 from tests.compute import evaluate
@@ -20,9 +23,15 @@ NOTHING = 0xFFFFFFFF
 PRELUDE = """
 uvec4 closest(vec3 o, vec3 d, float t_max, uint seed)
 {
-    Hit hit;
+    Crossing hit;
     bool is_hit = trace_closest(o, d, t_max, seed, hit);
     return uvec4(floatBitsToUint(hit.t), is_hit ? hit.instance : BVH_NONE, hit.triangle, packUnorm2x16(hit.bary));
+}
+
+bool meets_any(vec3 o, vec3 d, float t_max, uint seed)
+{
+    Crossing hit;
+    return trace(o, d, t_max, seed, true, hit);
 }
 """
 
@@ -51,17 +60,17 @@ class Traced:
 
     device: Device
     gpu_scene: GpuScene
-    bvh: Bvh
+    tracer: Tracer
 
     def call(self, result: str, expression: str, prelude: str = "", **inputs: np.ndarray) -> np.ndarray:
-        """An expression with bind/trace.glsl for every row of `inputs`."""
-        resources = self.bvh.resources()
-        constants = {"HAS_ALPHA": self.gpu_scene.has_alpha, **self.bvh.constants()}
+        """An expression with bind/trace.glsl and bind/geometry.glsl for every row of `inputs`."""
+        resources = {**self.tracer.resources(), **self.gpu_scene.geometry}
+        buffers = {name: value for name, value in resources.items() if isinstance(value, Buffer)}
+        textures = {name: value for name, value in resources.items() if isinstance(value, Texels)}
+        uniforms = {name: value for name, value in resources.items() if name not in {**buffers, **textures}}
         rows: dict[str, Any] = {name: _f4(values) for name, values in inputs.items()}
-        return evaluate(self.device, result, expression, ("bind/trace.glsl",), PRELUDE + prelude,
-                        {**self.gpu_scene.geometry, **self.gpu_scene.materials},
-                        {name: resources[name] for name in TRACE_UNIFORMS}, {name: resources[name] for name in TRACE},
-                        constants, **rows)
+        return evaluate(self.device, result, expression, ("bind/trace.glsl", "bind/geometry.glsl"), PRELUDE + prelude,
+                        buffers, uniforms, textures, self.tracer.constants(), **rows)
 
     def closest(self, o: np.ndarray, d: np.ndarray, t_max: Any = 1e30, seed: int = 0) -> Hits:
         """The nearest hits."""
@@ -72,11 +81,17 @@ class Traced:
     def any(self, o: np.ndarray, d: np.ndarray, t_max: Any = 1e30, seed: int = 0) -> np.ndarray:
         """Whether there is a hit before t_max."""
         t_max = np.broadcast_to(t_max, len(o))
-        return self.call("bool", f"trace_any(o, d, t_max, {seed}u)", o=o, d=d, t_max=t_max) != 0
+        return self.call("bool", f"meets_any(o, d, t_max, {seed}u)", o=o, d=d, t_max=t_max) != 0
 
 
 def _f4(rows: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(rows, "f4") if rows.dtype.kind == "f" else rows
+
+
+def make_tracer(device: Device, gpu_scene: GpuScene) -> Tracer:
+    """The rays of a scene that is on the device; nobody but the device's own list of scopes holds the trees."""
+    bvh = build_bvh(device, gpu_scene.placing, build_meshes(device, gpu_scene.scene.meshes))
+    return tracer_of(gpu_scene, bvh, make_rest(device, bvh.height))
 
 
 @contextmanager
@@ -85,7 +100,7 @@ def traced(device: Device, scene: Scene) -> Iterator[Traced]:
     before = set(device.scopes)
     try:
         gpu_scene = upload(device, scene)
-        yield Traced(device, gpu_scene, build_bvh(device, gpu_scene, build_meshes(device, scene.meshes)))
+        yield Traced(device, gpu_scene, make_tracer(device, gpu_scene))
     finally:
         for scope in set(device.scopes) - before:
             scope.close()

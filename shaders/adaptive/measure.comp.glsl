@@ -33,8 +33,8 @@ bool is_finite(float x)
 
 float squared_error(ivec2 pixel)
 {
-    vec3 I = texelFetch(u_film, ivec3(pixel, PLANE_COMBINED), 0).rgb / n_samples(pixel);
-    vec3 A = texelFetch(u_film, ivec3(pixel, PLANE_HALF), 0).rgb * 2.0 / n_samples(pixel);
+    vec3 I = texelFetch(u_film, ivec3(pixel, u_planes[COMBINED]), 0).rgb / n_samples(pixel);
+    vec3 A = texelFetch(u_film, ivec3(pixel, u_planes[HALF]), 0).rgb * 2.0 / n_samples(pixel);
     vec3 difference = abs(I - A);
     float e = (difference.r + difference.g + difference.b) / (BLACK + sqrt(max(I.r + I.g + I.b, 0.0)));
     return is_finite(e) ? e * e : NEVER_QUIET;

@@ -37,7 +37,8 @@ uint on_this_side(uint s, vec3 p_ws)
 {
     ivec3 voxel = ivec3(floor(to_voxels(p_ws)));
     int axis = int(surfels[s].voxel >> 30u);
-    for (int i = 1; i < 3; i++) {
+    int n_axes = u_n_node_words > 0u ? 3 : 0;  // see surfel_at
+    for (int i = 1; i < n_axes; i++) {
         int other = (axis + i) % 3;
         uint wall = find_surfel(voxel, other);
         if (wall == NOTHING)

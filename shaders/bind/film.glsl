@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose: the film: sums over the samples. The host says which layer holds each plane; -1: none does.
+// Purpose: the film: sums over the samples, in planes.
 
 #include "lib/math.glsl"
 
-const int N_PLANES = 1;
-const int PLANE_COMBINED = 0;             // premultiplied RGBA
-const int PLANE_DIFFUSE_DIRECT = -1;      // rho / pi E, in alpha the square of E's luminance
-const int PLANE_DIFFUSE_INDIRECT = -1;
-const int PLANE_DIFFUSE_FOUND = -1;       // that part of the indirect light which came straight from emitters or the world
-const int PLANE_DIFFUSE_COLOR = -1;       // rho; in alpha the samples that met a surface
-const int PLANE_GLOSSY_DIRECT = -1;       // L, in alpha the square of the luminance of L / albedo
-const int PLANE_GLOSSY_INDIRECT = -1;
-const int PLANE_GLOSSY_COLOR = -1;        // albedo; in alpha the angle by which the eye sees a reflection blurred
-const int PLANE_TRANSMISSION_DIRECT = -1;
-const int PLANE_TRANSMISSION_INDIRECT = -1;
-const int PLANE_TRANSMISSION_COLOR = -1;
-const int PLANE_EMISSION = -1;
-const int PLANE_ENVIRONMENT = -1;
-const int PLANE_ALBEDO = -1;              // all colours together, with what shines by itself
-const int PLANE_NORMAL_DEPTH = -1;        // unit normal of the first hit, distance from the eye
-const int PLANE_HALF = -1;                // as COMBINED, of half of the samples
-const int PLANE_POSITION = -1;            // of the first sample alone, metres relative to the grid's centre; alpha 1
+const int COMBINED = 0;                // premultiplied RGBA
+const int DIFFUSE_DIRECT = 1;          // rho / pi E, in alpha the square of E's luminance
+const int DIFFUSE_INDIRECT = 2;
+const int DIFFUSE_FOUND = 3;           // that part of the indirect light which came straight from emitters or the world
+const int DIFFUSE_COLOR = 4;           // rho; in alpha the samples that met a surface
+const int GLOSSY_DIRECT = 5;           // L, in alpha the square of the luminance of L / albedo
+const int GLOSSY_INDIRECT = 6;
+const int GLOSSY_COLOR = 7;            // albedo; in alpha the angle by which the eye sees a reflection blurred
+const int TRANSMISSION_DIRECT = 8;
+const int TRANSMISSION_INDIRECT = 9;
+const int TRANSMISSION_COLOR = 10;
+const int EMISSION = 11;
+const int ENVIRONMENT = 12;
+const int ALBEDO = 13;                 // all colours together, with what shines by itself
+const int NORMAL_DEPTH = 14;           // unit normal of the first hit, distance from the eye
+const int HALF = 15;                   // as COMBINED, of half of the samples
+const int POSITION = 16;               // of the first sample alone, metres relative to the grid's centre; alpha 1
+const int ALL_PLANES = 17;
 
-const float MIN_ALBEDO = 1e-4;            // a darker surface's light is not told from its colour
+uniform int u_planes[ALL_PLANES];      // the layer that holds each plane; -1: none does
+
+const float MIN_ALBEDO = 1e-4;         // a darker surface's light is not told from its colour
 
 float luminance(vec3 c)
 {

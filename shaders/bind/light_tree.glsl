@@ -2,7 +2,7 @@
 // Purpose: one of many lights, drawn by intensity and distance, and the probability of that [ContyEstevez18]. The trees are
 // complete: the root is node 1, node i has the children 2 i and 2 i + 1.
 
-#include "bind/geometry.glsl"
+#include "lib/layouts.glsl"
 
 const uint NO_LEAF = 0xffffffffu;
 

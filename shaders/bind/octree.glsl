@@ -66,14 +66,14 @@ int widest_axis(vec3 n)
 }
 
 // The surfel at a surface point. Rounding may put the point into the voxel beside, or a slanted normal onto another axis:
-// then the nearest thing to it is taken.
+// then the nearest thing to it is taken. A loop whose end compilers do not know: they would write out all of its turns.
 uint surfel_at(vec3 p_vx, vec3 n)
 {
-    int axis = widest_axis(n);
-    uint surfel = find_surfel(ivec3(floor(p_vx)), axis);
-    for (int i = 1; i < 3 && surfel == NOTHING; i++)
-        surfel = find_surfel(ivec3(floor(p_vx)), (axis + i) % 3);
-    for (int side = -1; side < 2 && surfel == NOTHING; side += 2)
-        surfel = find_surfel(ivec3(floor(p_vx + 0.01 * float(side) * n)), axis);
+    int axis = widest_axis(n), n_tries = u_n_node_words > 0u ? 5 : 0;
+    uint surfel = NOTHING;
+    for (int i = 0; i < n_tries && surfel == NOTHING; i++) {
+        vec3 aside = i < 3 ? vec3(0.0) : i == 3 ? -0.01 * n : 0.01 * n;
+        surfel = find_surfel(ivec3(floor(p_vx + aside)), i < 3 ? (axis + i) % 3 : axis);
+    }
     return surfel;
 }

@@ -5,8 +5,6 @@
 #include "bind/materials.glsl"
 #include "lib/bsdf.glsl"
 
-const bool HAS_SPECULAR = true;  // any material that is more than diffuse
-
 // How much brighter light between facets makes a layer that sends back E of white light after one scattering, E_mean over
 // all directions: what is missing goes on to other facets, which reflect f_mean of it [Kulla17] [Turquin19].
 vec3 with_bounces(float E, float E_mean, vec3 f_mean)
@@ -64,7 +62,7 @@ Bsdf principled(Material m, Shading shading, float NoV, bool is_back)
     Bsdf b = Bsdf(none, roughness * roughness, none, none, none, none, none, 1.0, none, none, none, 1.0, none, none);
     if (metallic > 0.0)
         add_metal(b, metallic, color, m.specular_tint, metal_albedo(roughness, NoV));
-    if (HAS_GLASS && m.transmission > 0.0 && rest > 0.0)
+    if (m.transmission > 0.0 && rest > 0.0)
         add_glass(b, rest * min(m.transmission, 1.0), m, color, NoV, is_back);
     rest *= 1.0 - clamp(m.transmission, 0.0, 1.0);
     b.diffuse = max(shading.base_color, 0.0) * add_coat(b, rest, m, NoV);
@@ -76,8 +74,6 @@ Bsdf principled(Material m, Shading shading, float NoV, bool is_back)
 vec3 mean_albedo(Material m, Shading shading)
 {
     vec3 color = clamp(shading.base_color, 0.0, 1.0);
-    if (!HAS_SPECULAR)
-        return color;
     float roughness = clamp(shading.roughness, 0.0, 1.0), metallic = clamp(shading.metallic, 0.0, 1.0);
     float f0 = 2.0 * max(m.specular_level, 0.0) * f0_of_ior(m.ior), ior = ior_of_f0(f0);
     vec4 means = dielectric_mean(roughness, ior);

@@ -3,9 +3,7 @@
 // probabilities.
 
 #include "bind/environment.glsl"
-#include "bind/light_draw.glsl"
-
-const bool HAS_WORLD_DRAWS = false;
+#include "bind/draws.glsl"
 
 uniform usamplerBuffer u_sky;    // rows of numbers, four a texel: the cumulative probability of the row, then of its columns
 uniform ivec2 u_sky_size;        // columns, rows
@@ -63,4 +61,10 @@ float world_density(vec3 d)
     float row = sky_entry(at.y, 0) - (at.y > 0 ? sky_entry(at.y - 1, 0) : 0.0);
     float column = sky_entry(at.y, at.x + 1) - (at.x > 0 ? sky_entry(at.y, at.x) : 0.0);
     return sky_density(row * column, e);
+}
+
+// Share of the world that a ray along d finds, drawn with pdf_ray [sr^-1]: draws find it too.
+float world_weight(vec3 d, float pdf_ray)
+{
+    return u_n_sky_draws > 0 ? balance(pdf_ray, world_density(d)) : 1.0;
 }

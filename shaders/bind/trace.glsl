@@ -3,12 +3,12 @@
 // Positions are metres relative to the grid's centre; t counts in lengths of d, which need not be a unit vector.
 // Triangles have two sides. Where `seed` matters: of a surface with alpha, that share of all seeds is hit.
 
-#include "bind/geometry.glsl"
-#include "bind/materials.glsl"
+#include "bind/opacity.glsl"
+#include "lib/math.glsl"
 
-const bool HAS_ALPHA = false;
-const int STACK = 64;            // two more than the trees' height
 const bool IN_LOCKSTEP = false;  // branches that no ray takes cost time too, as on Mesa's software renderer
+const int STACK = 64;            // two more than the trees' greatest height
+const int QUICK = IN_LOCKSTEP ? STACK : 24;  // of them in shared memory, which takes its room from the caches
 
 uniform usamplerBuffer u_bvh_nodes;      // of BvhNode, and so on, 16 bytes a texel
 uniform usamplerBuffer u_bvh_triangles;
@@ -19,11 +19,12 @@ uniform float u_bvh_extent;  // the scene's largest coordinate
 
 const float BOX_MARGIN = 1e-6;  // of the coordinates: more than the error of the triangle test, eight roundings of 6e-8
 
-struct Hit {
+// Where a ray met a triangle; bary: of the second and third corner.
+struct Crossing {
     float t;
     uint instance;
     uint triangle;
-    vec2 bary;  // of the second and third corner
+    vec2 bary;
 };
 
 BvhNode node_at(uint i)
@@ -100,11 +101,10 @@ bool meets_triangle(Ray ray, BvhTriangle triangle, float t_max, out float t, out
 }
 
 // Whether a surface with alpha lets this ray through.
-bool is_cut_out(uint instance, uint triangle, vec2 bary, uint seed)
+bool is_cut_out(Crossing c, uint seed)
 {
-    uint material = material_of(instance, triangle);
-    vec2 uv = materials[material].alpha_texture >= 0 ? uv_at(triangle, bary) : vec2(0.0);
-    return alpha_at(material, uv, true) <= sobol_point(0u, hash(seed ^ hash(instance ^ hash(triangle)))).x;
+    uint chance = hash(hash(seed ^ hash(c.instance ^ hash(c.triangle))));
+    return opacity_at(c.instance, c.triangle, c.bary) <= float(chance >> 8u) / 16777216.0;
 }
 
 // The ray in the space of an instance: d keeps its length in world units, so that t stays what it is.
@@ -116,25 +116,40 @@ Ray enter_instance(BvhInstance instance, vec3 o, vec3 d)
     return make_ray(o_os, d_os, instance.extent);
 }
 
-// References yet to visit: BVH_NONE lies below those of the tree of instances, and below those of an instance. In shared
-// memory, each invocation's next to the other ones': where it is private, an H100 gathers in three times the time.
+// References yet to visit: BVH_NONE lies below those of the tree of instances, and below those of an instance. The first
+// ones lie in shared memory, each invocation's next to the other ones': where they are private, an H100 gathers in three
+// times the time. Few rays need more, and only in trees so high.
 layout(local_size_x = 32) in;
 
-const int GROUP = 32;  // invocations of a workgroup that traces: its stacks leave room for many groups at once
+layout(std430) buffer TraceRest { uint trace_rest[]; };
 
-shared uint trace_stack[STACK * GROUP];
+const int GROUP = 32;  // invocations of a workgroup that traces
+
+uniform uint u_trace_stride;  // invocations that TraceRest has room for
+
+shared uint trace_stack[QUICK * GROUP];
 int trace_top;
+
+uint at_rest()
+{
+    return uint(trace_top - QUICK) * u_trace_stride + gl_GlobalInvocationID.x;
+}
 
 void push(uint reference)
 {
-    trace_stack[trace_top] = reference;
-    trace_top += GROUP;
+    if (QUICK == STACK || trace_top < QUICK)
+        trace_stack[trace_top * GROUP + int(gl_LocalInvocationIndex)] = reference;
+    else
+        trace_rest[at_rest()] = reference;
+    trace_top++;
 }
 
 uint pop()
 {
-    trace_top -= GROUP;
-    return trace_stack[trace_top];
+    trace_top--;
+    if (QUICK == STACK || trace_top < QUICK)
+        return trace_stack[trace_top * GROUP + int(gl_LocalInvocationIndex)];
+    return trace_rest[at_rest()];
 }
 
 // What comes after a node: the nearer child that the ray meets, while the other one waits.
@@ -154,58 +169,67 @@ uint next_of(uint reference, Ray ray, float t_max)
 
 // The nearest hit, or with `any_will_do` some hit, before t_max. Both levels in one loop, and a loop inside it over nodes
 // alone, so that neighbours come to their leaves together. Rays that any hit ends are a third quicker without (on an H100).
-bool trace(vec3 o, vec3 d, float t_max, uint seed, const bool any_will_do, out Hit hit)
+// A triangle that may let the ray through is looked at outside of these loops: what stands inside is paid for by all.
+bool trace(vec3 o, vec3 d, float t_max, uint seed, bool any_will_do, out Crossing hit)
 {
-    hit = Hit(t_max, BVH_NONE, 0u, vec2(0.0));
+    hit = Crossing(t_max, BVH_NONE, 0u, vec2(0.0));
+    Crossing met = hit;
     Ray ray = make_ray(o, d, u_bvh_extent), ray_ws = ray;
-    trace_top = int(gl_LocalInvocationIndex);
+    trace_top = 0;
     push(BVH_NONE);
     uint reference = u_bvh_root, instance = BVH_NONE;
-    while (true) {
-        while (reference < BVH_LEAF) {
-            reference = next_of(reference, ray, hit.t);
-            if (any_will_do && !IN_LOCKSTEP)
-                break;
-        }
-        if (reference < BVH_LEAF)
-            continue;
-        if (reference == BVH_NONE && instance == BVH_NONE)
-            break;
-        if (reference == BVH_NONE) {
-            instance = BVH_NONE;
-            ray = ray_ws;
-            reference = pop();
-        } else if (instance == BVH_NONE) {
-            instance = reference - BVH_LEAF;
-            BvhInstance entered = instance_at(instance);
-            ray = enter_instance(entered, o, d);
-            reference = entered.root;
-            push(BVH_NONE);
-        } else {
-            BvhTriangle triangle = triangle_at(reference - BVH_LEAF);
-            float t;
-            vec2 bary;
-            if (meets_triangle(ray, triangle, hit.t, t, bary)
-                && !(HAS_ALPHA && is_cut_out(instance, triangle.triangle, bary, seed))) {
-                hit = Hit(t, instance, triangle.triangle, bary);
-                if (any_will_do)
-                    return true;
+    bool is_opaque = true;
+    do {
+        met.instance = BVH_NONE;
+        while (met.instance == BVH_NONE) {
+            while (reference < BVH_LEAF) {
+                reference = next_of(reference, ray, hit.t);
+                if (any_will_do && !IN_LOCKSTEP)
+                    break;
             }
-            reference = pop();
+            if (reference < BVH_LEAF)
+                continue;
+            if (reference == BVH_NONE && instance == BVH_NONE)
+                break;
+            if (reference == BVH_NONE) {
+                instance = BVH_NONE;
+                ray = ray_ws;
+                reference = pop();
+            } else if (instance == BVH_NONE) {
+                instance = reference - BVH_LEAF;
+                BvhInstance entered = instance_at(instance);
+                ray = enter_instance(entered, o, d);
+                is_opaque = cutouts[instance] == 0u;
+                reference = entered.root;
+                push(BVH_NONE);
+            } else {
+                BvhTriangle triangle = triangle_at(reference - BVH_LEAF);
+                float t;
+                vec2 bary;
+                if (meets_triangle(ray, triangle, hit.t, t, bary)) {
+                    if (!is_opaque) {
+                        met = Crossing(t, instance, triangle.triangle, bary);
+                    } else {
+                        hit = Crossing(t, instance, triangle.triangle, bary);
+                        if (any_will_do)
+                            return true;
+                    }
+                }
+                reference = pop();
+            }
         }
-    }
+        if (met.instance != BVH_NONE && !is_cut_out(met, seed)) {
+            hit = met;
+            if (any_will_do)
+                return true;
+        }
+    } while (met.instance != BVH_NONE);
     return hit.instance != BVH_NONE;
 }
 
-bool trace_closest(vec3 o, vec3 d, float t_max, uint seed, out Hit hit)
+bool trace_closest(vec3 o, vec3 d, float t_max, uint seed, out Crossing hit)
 {
     return trace(o, d, t_max, seed, false, hit);
-}
-
-bool trace_any(vec3 o, vec3 d, float t_max, uint seed)
-{
-    Hit hit;
-    return trace(o, d, t_max, seed, true, hit);
 }
 
 // The start of a ray along d from surface point p: off the surface by 256 units in the last place of each coordinate, more

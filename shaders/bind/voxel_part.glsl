@@ -2,10 +2,8 @@
 // Purpose: what one triangle brings to one voxel.
 
 #include "bind/visit_voxels.glsl"
-#include "bind/materials.glsl"
 #include "bind/principled.glsl"
 
-const bool HAS_TEXTURES = false;
 const float LEAST = 1.0 / 8192.0;  // voxel faces that a mere touch weighs: where there is nothing else, means within 1 / 64
 
 struct Part {
@@ -21,8 +19,9 @@ struct Part {
 Part part_of(Strip strip, ivec3 cell)
 {
     vec4 clipped = clipped_part(strip.shape, cell);
-    vec2 uv = HAS_TEXTURES ? uv_at(strip.triangle, barycentrics(strip.shape, clipped.xyz)) : vec2(0.0);
-    Shading s = shading_at(strip.material, uv, HAS_TEXTURES);
+    Material m = materials[strip.material];
+    Shading s = shading_at(m, uv_at(strip.triangle, barycentrics(strip.shape, clipped.xyz)));
+    vec3 albedo = m.program == PROGRAM_MATTE ? clamp(s.base_color, 0.0, 1.0) : mean_albedo(m, s);
     return Part(clipped.w, max(clipped.w, LEAST), clipped.xyz, unit_normal(strip.shape),
-                mean_albedo(materials[strip.material], s), max(s.emission, 0.0), clamp(s.alpha, 0.0, 1.0));
+                albedo, max(s.emission, 0.0), clamp(s.alpha, 0.0, 1.0));
 }

@@ -2,13 +2,12 @@
 // Purpose: sums of what triangles bring to a voxel or surfel, and the means over their weights. Fixed point: integer
 // addition knows no order, so the sums are the same in every run.
 
-const bool HAS_EMISSION = false;
-const int SUMS = 0;          // words of each
 const float ONE = 262144.0;  // fixed point's unit: 2^18 a voxel's face leaves room for 8192 faces in a voxel
 
 layout(std430) buffer Sums { uint sums[]; };
 
-uniform float u_emission_unit;  // radiance that counts as 1
+uniform int u_n_sums;           // words of each
+uniform float u_emission_unit;  // radiance that counts as 1; 0 if nothing sends out light
 
 void add(uint at, float value)
 {

@@ -8,7 +8,7 @@
 
 #include "lib/layouts.glsl"
 
-const int RADIUS = 8;
+const int RADIUS = 4;  // neighbours on each side: 16 make trees of mixed sizes 4 % better, no others, in three times the time
 
 layout(local_size_x = 64) in;
 

@@ -8,8 +8,6 @@
 
 #include "bind/cache.glsl"
 
-const int N_RAYS = 16;
-
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Links { uint links[]; };
@@ -17,6 +15,7 @@ layout(std430) buffer Changes { uint changes[]; };  // of each sweep
 
 uniform uint u_first;
 uniform uint u_end;
+uniform uint u_n_rays;
 uniform uint u_sweep;
 uniform float u_tolerance;  // of the brightest change: a smaller one is none
 
@@ -34,10 +33,10 @@ void main()
     if (side >= u_end || has_settled())
         return;
     vec3 E = vec3(0.0);
-    for (uint k = 0u; k < uint(N_RAYS); k++) {
+    for (uint k = 0u; k < u_n_rays; k++) {
         uint link = links[k * u_n_sides + side];
         if (link != NOTHING)
-            E += PI / float(N_RAYS) * cache[cache_entry(from, link)].rgb;
+            E += PI / float(u_n_rays) * cache[cache_entry(from, link)].rgb;
     }
     E += cache[cache_entry(STILL, side)].rgb;
     cache[cache_entry(INDIRECT, side)] = vec4(E, 0.0);

@@ -2,7 +2,7 @@
 // Purpose: one side of a surfel as a surface that light arrives at.
 
 #include "bind/cache.glsl"
-#include "bind/geometry.glsl"
+#include "lib/surface.glsl"
 
 Surface surface_of_side(uint side)
 {

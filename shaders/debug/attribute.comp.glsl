@@ -7,7 +7,7 @@
 #include "lib/layouts.glsl"
 #include "lib/math.glsl"
 
-const bool SHOW_NORMAL = false;  // the normal as n / 2 + 1 / 2 instead of the albedo
+uniform bool u_show_normal;  // the normal as n / 2 + 1 / 2 instead of the albedo
 
 layout(local_size_x = 64) in;
 
@@ -25,7 +25,7 @@ void main()
     Voxel voxel = voxels[index];
     vec4 albedo_coverage = unpackUnorm4x8(voxel.albedo_coverage);
     vec3 value = albedo_coverage.rgb;
-    if (SHOW_NORMAL)
+    if (u_show_normal)
         value = voxel.normal == NO_NORMAL ? vec3(0.5) : unpack_unit(voxel.normal) * 0.5 + 0.5;
     ivec3 at = ivec3(voxel.voxel & 1023u, voxel.voxel >> 10u & 1023u, voxel.voxel >> 20u);
     imageStore(u_attribute, at, vec4(value * albedo_coverage.a, albedo_coverage.a));

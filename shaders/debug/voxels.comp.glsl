@@ -18,8 +18,8 @@ uniform uint u_first;
 uniform uint u_end;
 uniform int u_lod;
 
-const bool SHADE_FACES = false;   // faces along x and y darker, so that a single colour still shows a shape
-const bool SHOW_OPACITY = false;  // a as grey instead of rgb
+uniform bool u_shade_faces;       // faces along x and y darker, so that a single colour still shows a shape
+uniform bool u_show_opacity;      // a as grey instead of rgb
 const float EDGE = 0.06;          // of a texel's side, drawn darker so that texels can be told apart
 const float EDGE_SHADE = 0.6;
 
@@ -28,7 +28,7 @@ float shade(vec3 p, int axis)
 {
     vec3 to_edge = 0.5 - abs(fract(p) - 0.5);
     to_edge[axis] = 1.0;
-    float face = SHADE_FACES ? vec3(0.75, 0.87, 1.0)[axis] : 1.0;
+    float face = u_shade_faces ? vec3(0.75, 0.87, 1.0)[axis] : 1.0;
     return min(min(to_edge.x, to_edge.y), to_edge.z) < EDGE ? EDGE_SHADE * face : face;
 }
 
@@ -46,7 +46,7 @@ vec4 first_texel(vec3 o, vec3 d, int n)
     while (all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(n)))) {
         vec4 value = texelFetch(u_attribute, cell, u_lod);
         if (value.a > 0.0)
-            return vec4((SHOW_OPACITY ? value.aaa : value.rgb / value.a) * shade(o + d * t, axis), 1.0);
+            return vec4((u_show_opacity ? value.aaa : value.rgb / value.a) * shade(o + d * t, axis), 1.0);
         axis = next.x < next.y && next.x < next.z ? 0 : next.y < next.z ? 1 : 2;
         t = next[axis];
         cell[axis] += step[axis];
@@ -65,6 +65,6 @@ void main()
     camera_ray(vec2(pixel) + 0.5, origin, direction);
     float texels_per_voxel = exp2(-float(u_lod));
     vec4 value = first_texel(to_voxels(origin) * texels_per_voxel, direction, u_grid_n >> u_lod);
-    ivec3 at = ivec3(pixel, PLANE_COMBINED);
+    ivec3 at = ivec3(pixel, u_planes[COMBINED]);
     imageStore(u_film, at, imageLoad(u_film, at) + value);
 }

@@ -12,7 +12,7 @@
 #include "bind/film.glsl"
 #include "bind/samples.glsl"
 
-const bool IS_GLOSSY = false;
+uniform bool u_is_glossy;
 const float PLANE_PIXELS = 1.0;    // z: distance from the surface's plane, in pixels of that depth
 const float BLUR = 3.0;            // a over alpha: GGX sends 7 of 10 reflections into that angle
 
@@ -36,8 +36,8 @@ struct Guide {
 // Means over the pixel's samples.
 Guide guide(ivec2 pixel)
 {
-    vec4 sums = texelFetch(u_film, ivec3(pixel, PLANE_NORMAL_DEPTH), 0);
-    float count = max(texelFetch(u_film, ivec3(pixel, PLANE_DIFFUSE_COLOR), 0).a, 1.0);
+    vec4 sums = texelFetch(u_film, ivec3(pixel, u_planes[NORMAL_DEPTH]), 0);
+    float count = max(texelFetch(u_film, ivec3(pixel, u_planes[DIFFUSE_COLOR]), 0).a, 1.0);
     vec3 o, d;
     camera_ray(vec2(pixel) + 0.5, o, d);
     return Guide(sums.xyz / count, o + d * (sums.a / count), sums.a / count);
@@ -56,8 +56,8 @@ vec2 steady(ivec2 pixel)
                 continue;
             float w = (2.0 - abs(float(x))) * (2.0 - abs(float(y)));
             sum.x += w * variance;
-            if (IS_GLOSSY)
-                sum.y += w * texelFetch(u_film, ivec3(at, PLANE_GLOSSY_COLOR), 0).a / n_samples(at);
+            if (u_is_glossy)
+                sum.y += w * texelFetch(u_film, ivec3(at, u_planes[GLOSSY_COLOR]), 0).a / n_samples(at);
             weight += w;
         }
     return sum / max(weight, 1e-6);
@@ -102,7 +102,7 @@ void main()
                 continue;
             Guide there = guide(at);
             vec3 dn = there.normal - here.normal;
-            float w_n = IS_GLOSSY ? exp(-(dot(dn, dn) + float(x * x + y * y) * angle * angle) * blur)
+            float w_n = u_is_glossy ? exp(-(dot(dn, dn) + float(x * x + y * y) * angle * angle) * blur)
                                   : to_the_64(clamp(dot(here.normal, there.normal), 0.0, 1.0));
             float w = kernel[abs(x)] * kernel[abs(y)] * w_n
                     * exp(-abs(dot(here.normal, there.position - here.position)) / (pixel_size * PLANE_PIXELS * float(u_step))

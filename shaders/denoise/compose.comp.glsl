@@ -9,9 +9,9 @@
 #include "bind/film.glsl"
 #include "bind/samples.glsl"
 
-const int PLANE = -1;      // of light
-const int COLOR = -1;      // of the albedo that it was multiplied with
-const float SCALE = 1.0;   // s
+uniform int u_plane;     // layer of light; -1: none
+uniform int u_color;     // of the albedo that it was multiplied with
+uniform float u_scale;   // s
 
 layout(local_size_x = 64) in;
 
@@ -29,14 +29,14 @@ void main()
     ivec2 pixel = tiled_pixel(index, u_size);
     if (index >= u_end || any(greaterThanEqual(pixel, u_size)))
         return;
-    if (PLANE < 0) {
-        imageStore(u_picture, pixel, texelFetch(u_film, ivec3(pixel, PLANE_COMBINED), 0) / n_samples(pixel));
+    if (u_plane < 0) {
+        imageStore(u_picture, pixel, texelFetch(u_film, ivec3(pixel, u_planes[COMBINED]), 0) / n_samples(pixel));
         return;
     }
     vec4 light = texelFetch(u_light, pixel, 0), L = imageLoad(u_picture, pixel);
     if (light.a < 0.0)
         return;
-    vec3 change = texelFetch(u_film, ivec3(pixel, COLOR), 0).rgb / SCALE * light.rgb - texelFetch(u_film, ivec3(pixel, PLANE), 0).rgb;
+    vec3 change = texelFetch(u_film, ivec3(pixel, u_color), 0).rgb / u_scale * light.rgb - texelFetch(u_film, ivec3(pixel, u_plane), 0).rgb;
     L.rgb = max(L.rgb + change / n_samples(pixel), min(L.rgb, 0.0));
     imageStore(u_picture, pixel, L);
 }

@@ -2,31 +2,30 @@
 // Purpose:    the light that arrives at each pixel, as in the thesis: microfacet direct light with a shadow cone a lamp,
 //             nine diffuse cones and a specular cone for the indirect light.
 // Formula:    E = pi sum w_i L_i, w_i = cos_i / sum cos; specular L times the environment BRDF [Karis13]
-// In:         G-buffer, scene, lights, filtered voxels, world
-// Out:        u_incident
+// In:         Wave: points, hits; materials, lights, filtered voxels, world
+// Out:        Wave: arrivals, gloss
 // Invocation: one pixel
 
-#include "bind/gbuffer.glsl"
-#include "bind/incident.glsl"
-#include "bind/tiles.glsl"
 #include "bind/albedo.glsl"
-#include "bind/environment.glsl"
 #include "bind/cones.glsl"
+#include "bind/environment.glsl"
+#include "bind/gloss.glsl"
+#include "bind/instances.glsl"
+#include "bind/materials.glsl"
+#include "bind/pixels.glsl"
+#include "bind/wave.glsl"
 #include "lib/brdf.glsl"
 #include "lib/light_sampling.glsl"
 
-const int N_LIGHTS = 0;
-const bool HAS_TEXTURES = false;
-const bool HAS_INDIRECT = true;   // anything that a cone could find
-const bool HAS_SPECULAR = true;   // any material that reflects
 const int N_RING = 8;             // cones around the one along the normal
 
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Lights { Light lights[]; };
 
-uniform uint u_first;
-uniform uint u_end;
+uniform int u_n_lights;
+uniform bool u_has_gloss;         // whether any point mirrors
+uniform bool u_has_light;         // whether there is anything that a cone could find
 uniform uint u_sample;
 uniform uint u_seed;
 uniform float u_ring_angle;       // between the normal and the cones around it
@@ -68,55 +67,64 @@ float shadow_cone(Surface s, LightSample light)
     return 1.0 - trace_cone(to_voxels(s.position), s.normal_geometric, light.wi, u_tan_half_shadow, t_max).a;
 }
 
-void direct_light(Seen seen, vec3 f0, uint seed, inout vec3 E, inout vec3 specular)
+// What reflects beside the ground: f0 and roughness of a point's material.
+vec4 mirror_of(Hit hit)
 {
-    Surface s = seen.surface;
-    float NoV = dot(s.normal, seen.wo), alpha = max(seen.shading.roughness * seen.shading.roughness, 1e-3);
-    for (int i = 0; i < N_LIGHTS; i++) {
+    Material m = materials[material_of(hit.instance, hit.triangle)];
+    Shading shading = shading_at(m, uv_at(hit.triangle, hit.bary));
+    vec3 f0 = mix(dielectric_f0(m.ior, m.specular_level) * m.specular_tint, shading.base_color, shading.metallic);
+    return vec4(f0, shading.roughness);
+}
+
+void direct_light(Surface s, vec3 wo, vec4 mirror, uint seed, inout vec3 E, inout vec3 specular)
+{
+    float NoV = dot(s.normal, wo), alpha = max(mirror.w * mirror.w, 1e-3);
+    for (int i = 0; i < u_n_lights; i++) {
         LightSample light = sample_light(lights[i], s.position, sobol_point(u_sample, seed + uint(i)));
         float NoL = dot(s.normal, light.wi);
         if (NoL <= 0.0 || dot(s.normal_geometric, light.wi) <= 0.0 || light.E_perp == vec3(0.0))
             continue;
         vec3 arriving = NoL * light.E_perp * (lights[i].casts_shadow != 0u ? shadow_cone(s, light) : 1.0);
         E += arriving;
-        if (HAS_SPECULAR && f0 != vec3(0.0)) {
-            vec3 h = normalize(light.wi + seen.wo);
-            specular += arriving * microfacet_brdf(f0, alpha, dot(s.normal, h), NoV, NoL, dot(seen.wo, h));
+        if (mirror.rgb != vec3(0.0)) {
+            vec3 h = normalize(light.wi + wo);
+            specular += arriving * microfacet_brdf(mirror.rgb, alpha, dot(s.normal, h), NoV, NoL, dot(wo, h));
         }
     }
 }
 
+// Radiance by a cone around the mirror direction; world: the part of it that comes from there.
+vec3 specular_light(Surface s, vec3 wo, vec4 mirror, out vec3 world)
+{
+    vec2 ab = environment_brdf(mirror.w, dot(s.normal, wo));
+    vec3 reflectance = mirror.rgb * ab.x + (mirror.rgb == vec3(0.0) ? 0.0 : ab.y);
+    world = vec3(0.0);
+    if (!u_specular_cone || reflectance == vec3(0.0))
+        return vec3(0.0);
+    vec3 L = cone_light(to_voxels(s.position), s.normal_geometric, reflect(-wo, s.normal), clamp(mirror.w * mirror.w, 0.01, 1.0), world);
+    world *= reflectance;
+    return reflectance * L;
+}
+
 void main()
 {
-    uint index = u_first + gl_GlobalInvocationID.x;
-    ivec2 pixel = tiled_pixel(index, u_size);
-    if (index >= u_end || any(greaterThanEqual(pixel, u_size)) || is_done(pixel))
+    uint slot = u_first + gl_GlobalInvocationID.x;
+    if (slot >= u_end)
         return;
-    vec3 E_direct = vec3(0.0), E_indirect = vec3(0.0), E_world = vec3(0.0), L_direct = vec3(0.0), L_indirect = vec3(0.0);
-    Seen seen = seen_at(pixel, HAS_TEXTURES);
-    if (seen.hit) {
-        Surface s = seen.surface;
-        Material m = materials[s.material];
-        vec3 f0 = mix(dielectric_f0(m.ior, m.specular_level) * m.specular_tint, seen.shading.base_color, seen.shading.metallic);
-        direct_light(seen, f0, hash(uint(pixel.x) + hash(uint(pixel.y) + u_seed)), E_direct, L_direct);
-        if (HAS_INDIRECT) {
-            E_indirect = diffuse_cones(s, E_world);
-            vec2 ab = environment_brdf(seen.shading.roughness, dot(s.normal, seen.wo));
-            vec3 reflectance = f0 * ab.x + (f0 == vec3(0.0) ? 0.0 : ab.y);
-            if (HAS_SPECULAR && u_specular_cone && reflectance != vec3(0.0)) {
-                float tan_half_angle = clamp(seen.shading.roughness * seen.shading.roughness, 0.01, 1.0);
-                vec3 d = reflect(-seen.wo, s.normal), world;
-                vec3 L = cone_light(to_voxels(s.position), s.normal_geometric, d, tan_half_angle, world);
-                L_direct += reflectance * world;
-                L_indirect += reflectance * (L - world);
-            }
-        }
+    Point p = get_point(u_set, slot);
+    if (!is_kind(p, POINT_SURFACE))
+        return;
+    Hit hit = get_hit(u_set, slot);
+    Surface s = surface_of(p);
+    ivec2 pixel = pixel_of(slot);
+    vec3 wo = -hit.direction, E = vec3(0.0), E_indirect = vec3(0.0), E_world = vec3(0.0), L = vec3(0.0), L_cone = vec3(0.0), L_world = vec3(0.0);
+    vec4 mirror = mirror_of(hit);
+    direct_light(s, wo, mirror, hash(uint(pixel.x) + hash(uint(pixel.y) + u_seed)), E, L);
+    if (u_has_light) {
+        E_indirect = diffuse_cones(s, E_world);
+        L_cone = specular_light(s, wo, mirror, L_world);
     }
-    arrive(pixel, INCIDENT_DIFFUSE_DIRECT, vec4(E_direct, 0.0));
-    arrive(pixel, INCIDENT_DIFFUSE_INDIRECT, vec4(E_indirect, 0.0));
-    arrive(pixel, INCIDENT_DIFFUSE_FOUND, vec4(E_world, 0.0));
-    arrive(pixel, INCIDENT_GLOSSY_DIRECT, vec4(L_direct, 0.0));
-    arrive(pixel, INCIDENT_GLOSSY_INDIRECT, vec4(L_indirect, 0.0));
-    arrive(pixel, INCIDENT_TRANSMISSION_DIRECT, vec4(0.0));
-    arrive(pixel, INCIDENT_TRANSMISSION_INDIRECT, vec4(0.0));
+    put_arrival(slot, Arrival(E, E_indirect, E_world));
+    if (u_has_gloss)
+        put_gloss(slot, Gloss(L + L_world, 0.0, L_cone - L_world, vec3(0.0), vec3(0.0)));
 }

@@ -4,8 +4,6 @@
 
 #include "lib/ggx.glsl"
 
-const bool HAS_GLASS = true;  // any material that lets light through
-
 const float SMOOTH = 1.4e-5;  // alpha up to which a surface is a perfect mirror or pane, as in Cycles
 
 // metal, coat, glass: the part of each layer with its multiple scattering; zero where there is none.
@@ -34,7 +32,7 @@ void facet_shares(Bsdf b, float c, out vec3 reflected, out vec3 transmitted)
         reflected += b.metal * f82(b.metal_f0, b.metal_dip, c);
     if (b.coat != vec3(0.0))
         reflected += b.coat * f_from(b.coat_f0, f_dielectric(c, b.coat_eta), b.coat_eta);
-    if (HAS_GLASS && b.glass != vec3(0.0)) {
+    if (b.glass != vec3(0.0)) {
         vec3 f = f_from(b.glass_f0, f_dielectric(c, b.glass_eta), b.glass_eta);
         reflected += b.glass * f;
         transmitted = b.glass * b.glass_tint * (1.0 - f);
@@ -75,7 +73,7 @@ vec3 evaluate_specular(Bsdf b, vec3 wo, vec3 wi, out float pdf)
 {
     pdf = 0.0;
     bool is_through = wi.z < 0.0;
-    if (b.alpha <= SMOOTH || wi.z == 0.0 || (is_through && !(HAS_GLASS && is_bending(b))))
+    if (b.alpha <= SMOOTH || wi.z == 0.0 || (is_through && !(is_bending(b))))
         return vec3(0.0);
     vec3 h = is_through ? wo + b.glass_eta * wi : wo + wi;
     h = normalize(h.z < 0.0 ? -h : h);
@@ -103,7 +101,7 @@ Drawn sample_specular(Bsdf b, vec3 wo, vec2 u, float v)
     vec3 h = is_smooth ? vec3(0.0, 0.0, 1.0) : visible_normal(wo, b.alpha, u), reflected, transmitted;
     facet_shares(b, dot(wo, h), reflected, transmitted);
     float chance = reflect_chance(reflected, transmitted);
-    bool is_through = HAS_GLASS && v >= chance;
+    bool is_through = v >= chance;
     float p = is_through ? 1.0 - chance : chance;
     Drawn drawn = Drawn(reflect(-wo, h), INFINITE, (is_through ? transmitted : reflected) / p, is_through);
     if (is_through)

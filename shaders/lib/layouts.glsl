@@ -17,6 +17,24 @@ const uint NO_NORMAL = 2147516416u;
 const uint BVH_LEAF = 2147483648u;
 const uint BVH_NONE = 4294967295u;
 const uint BVH_HEIGHT_BITS = 6u;
+const uint HIT_DONE = 4294967294u;
+const uint PROGRAM_MATTE = 0u;
+const uint PROGRAM_PRINCIPLED = 1u;
+const uint POINT_SURFACE = 1u;
+const uint POINT_LOBES = 2u;
+const uint POINT_SMOOTH = 4u;
+const uint POINT_BENDING = 8u;
+const uint POINT_ROUGH = 16u;
+const uint POINT_DONE = 32u;
+const uint POINT_LIFTED = 64u;
+const uint POINT_GLOWS = 128u;
+const uint HIT_PLANES = 3u;
+const uint POINT_PLANES = 6u;
+const uint LOBES_PLANES = 11u;
+const uint ARRIVAL_PLANES = 3u;
+const uint GLOSS_PLANES = 4u;
+const uint PATH_PLANES = 3u;
+const uint DRAW_PLANES = 2u;
 
 struct Instance {
     vec4 row_x;
@@ -45,6 +63,12 @@ struct Material {
     int emission_texture;
     int alpha_texture;
     int normal_texture;
+    uint program;
+};
+
+struct Opacity {
+    float alpha;
+    int alpha_texture;
 };
 
 struct Texture {

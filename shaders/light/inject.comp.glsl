@@ -9,8 +9,6 @@
 #include "bind/voxels.glsl"
 #include "lib/light_sampling.glsl"
 
-const int N_LIGHTS = 0;
-const int LIGHT_POINTS = 4;    // points of each extended lamp
 const float START = 2.0;       // voxels between a voxel's centre and the start of its shadow ray: leaves its own surface
 
 layout(local_size_x = 64) in;
@@ -21,6 +19,8 @@ layout(rgba16f) uniform writeonly image3D u_radiance;
 
 uniform uint u_first;
 uniform uint u_end;
+uniform int u_n_lights;
+uniform int u_n_points;        // of each extended lamp
 uniform vec3 u_eye;            // metres relative to the grid's centre
 uniform float u_ambient;       // k_a I_a
 uniform float u_specular;      // k_s
@@ -53,9 +53,9 @@ void main()
     bool has_normal = voxel.normal != NO_NORMAL;
     vec3 normal = has_normal ? unpack_unit(voxel.normal) : vec3(0.0);
     vec3 L = voxel.emission + u_ambient * rho;
-    for (int i = 0; i < N_LIGHTS; i++) {
+    for (int i = 0; i < u_n_lights; i++) {
         Light light = lights[i];
-        int n_points = light.size == vec2(0.0) ? 1 : LIGHT_POINTS;
+        int n_points = light.size == vec2(0.0) ? 1 : u_n_points;
         for (int k = 0; k < n_points; k++) {
             vec2 u = n_points == 1 ? vec2(0.5) : sobol_point(uint(k), 0u);
             LightSample s = sample_light(light, p, u);

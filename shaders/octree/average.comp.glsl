@@ -30,7 +30,7 @@ void main()
     uint i = u_first + gl_GlobalInvocationID.x;
     if (i >= u_end)
         return;
-    uint at = i * uint(SUMS), key = sums[at + 10u];
+    uint at = i * uint(u_n_sums), key = sums[at + 10u];
     float area = max(float(sums[at]), 1.0);
     vec3 voxel = vec3(key & 1023u, key >> 10u & 1023u, key >> 20u & 1023u);
     vec3 inside = clamp(mean3(at + 7u, area), 0.0, 1.0), n = mean3(at + 4u, area);
@@ -38,7 +38,7 @@ void main()
     surfels[i].position = u_grid_low + (voxel + inside) / u_voxels_per_metre;
     surfels[i].normal = pack_unit(n);
     surfels[i].albedo = clamp(mean3(at + 1u, area), 0.0, MAX_ALBEDO);
-    surfels[i].emission = HAS_EMISSION ? mean3(at + 13u, area) * u_emission_unit : vec3(0.0);
+    surfels[i].emission = u_emission_unit > 0.0 ? mean3(at + 13u, area) * u_emission_unit : vec3(0.0);
     surfels[i].voxel = key;
     float height = dot(inside - 0.5, n);
     surfels[i].outer = packHalf2x16(vec2(beyond(sums[at + 11u], height), beyond(sums[at + 12u], -height)));

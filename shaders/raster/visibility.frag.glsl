@@ -4,11 +4,8 @@
 // Out:        instance + 1 (0: nothing), triangle, barycentrics of the second and third corner as float bits
 // Invocation: one fragment; cut-outs by alpha are decided by a random number a sample, whose mean is the blend
 
-#include "bind/geometry.glsl"
-#include "bind/materials.glsl"
-
-const bool HAS_ALPHA = false;
-const bool HAS_TEXTURES = false;
+#include "bind/opacity.glsl"
+#include "lib/math.glsl"
 
 uniform uint u_sample;
 uniform uint u_seed;
@@ -21,11 +18,10 @@ layout(location = 0) out uvec4 o_visibility;
 void main()
 {
     uint instance = v_instance_triangle.x, triangle = v_instance_triangle.y;
-    if (HAS_ALPHA) {
-        vec2 uv = HAS_TEXTURES ? uv_at(triangle, v_bary) : vec2(0.0);
+    if (cutouts[instance] != 0u) {
         uvec2 pixel = uvec2(gl_FragCoord.xy);
         uint seed = hash(pixel.x + hash(pixel.y + hash(instance ^ hash(triangle ^ hash(u_seed)))));
-        if (alpha_at(material_of(instance, triangle), uv, HAS_TEXTURES) <= sobol_point(u_sample, seed).x)
+        if (opacity_at(instance, triangle, v_bary) <= sobol_point(u_sample, seed).x)
             discard;
     }
     o_visibility = uvec4(instance + 1u, triangle, floatBitsToUint(v_bary));

@@ -1,39 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    the light that leaves each pixel towards the eye, added to the film.
 // Formula:    L = Le + rho_d / pi (E_direct + E_indirect) + L_glossy + L_transmission; without a surface, the world
-// In:         G-buffer, scene, world, u_incident
+// In:         Wave: points, lobes, arrivals, gloss; world
 // Out:        u_film: sums in the layers that are asked for, of tiles that are not done
 // Invocation: one pixel
 
-#include "bind/film.glsl"
-#include "bind/gbuffer.glsl"
 #include "bind/environment.glsl"
-#include "bind/incident.glsl"
-#include "bind/principled.glsl"
-#include "bind/tiles.glsl"
-
-const bool HAS_TEXTURES = false;
+#include "bind/film.glsl"
+#include "bind/gloss.glsl"
+#include "bind/pixels.glsl"
+#include "bind/wave.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(rgba32f) uniform image2DArray u_film;
 
-uniform uint u_first;
-uniform uint u_end;
+uniform int u_n_planes;
 uniform bool u_film_transparent;
 uniform uint u_sample;
-
-Bsdf bsdf_of(Seen seen)
-{
-    Surface s = seen.surface;
-    return principled(materials[s.material], seen.shading, dot(s.normal, seen.wo), s.is_back);
-}
+uniform bool u_has_lobes;  // whether any point can have them
 
 void add(ivec2 pixel, int plane, vec4 value)
 {
-    if (plane < 0)
+    if (u_planes[plane] < 0)
         return;
-    ivec3 at = ivec3(pixel, plane);
+    ivec3 at = ivec3(pixel, u_planes[plane]);
     imageStore(u_film, at, imageLoad(u_film, at) + value);
 }
 
@@ -42,34 +33,25 @@ float luminance_squared(vec3 c)
     return luminance(c) * luminance(c);
 }
 
-vec3 add_diffuse(ivec2 pixel, vec3 rho)
+vec3 add_diffuse(ivec2 pixel, vec3 rho, Arrival E)
 {
-    vec3 direct = arrived(pixel, INCIDENT_DIFFUSE_DIRECT).rgb, indirect = arrived(pixel, INCIDENT_DIFFUSE_INDIRECT).rgb;
-    add(pixel, PLANE_DIFFUSE_DIRECT, vec4(rho / PI * direct, luminance_squared(direct)));
-    add(pixel, PLANE_DIFFUSE_INDIRECT, vec4(rho / PI * indirect, luminance_squared(indirect)));
-    add(pixel, PLANE_DIFFUSE_FOUND, vec4(rho / PI * arrived(pixel, INCIDENT_DIFFUSE_FOUND).rgb, 0.0));
-    add(pixel, PLANE_DIFFUSE_COLOR, vec4(rho, 1.0));
-    return rho / PI * (direct + indirect);
+    add(pixel, DIFFUSE_DIRECT, vec4(rho / PI * E.direct, luminance_squared(E.direct)));
+    add(pixel, DIFFUSE_INDIRECT, vec4(rho / PI * E.indirect, luminance_squared(E.indirect)));
+    add(pixel, DIFFUSE_FOUND, vec4(rho / PI * E.found, 0.0));
+    add(pixel, DIFFUSE_COLOR, vec4(rho, 1.0));
+    return rho / PI * (E.direct + E.indirect);
 }
 
-vec3 add_glossy(ivec2 pixel, vec3 albedo, float alpha)
+vec3 add_specular(ivec2 pixel, vec3 glossy, vec3 transmission, float alpha, Gloss g)
 {
-    vec4 indirect = arrived(pixel, INCIDENT_GLOSSY_INDIRECT);
-    vec3 direct = arrived(pixel, INCIDENT_GLOSSY_DIRECT).rgb, without_color = 1.0 / max(albedo, MIN_ALBEDO);
-    add(pixel, PLANE_GLOSSY_DIRECT, vec4(direct, luminance_squared(direct * without_color)));
-    add(pixel, PLANE_GLOSSY_INDIRECT, vec4(indirect.rgb, luminance_squared(indirect.rgb * without_color)));
-    add(pixel, PLANE_GLOSSY_COLOR, vec4(albedo, alpha * indirect.a));
-    return direct + indirect.rgb;
-}
-
-vec3 add_transmission(ivec2 pixel, vec3 albedo)
-{
-    vec3 direct = arrived(pixel, INCIDENT_TRANSMISSION_DIRECT).rgb;
-    vec3 indirect = arrived(pixel, INCIDENT_TRANSMISSION_INDIRECT).rgb;
-    add(pixel, PLANE_TRANSMISSION_DIRECT, vec4(direct, 0.0));
-    add(pixel, PLANE_TRANSMISSION_INDIRECT, vec4(indirect, 0.0));
-    add(pixel, PLANE_TRANSMISSION_COLOR, vec4(albedo, 0.0));
-    return direct + indirect;
+    vec3 without_color = 1.0 / max(glossy, MIN_ALBEDO);
+    add(pixel, GLOSSY_DIRECT, vec4(g.glossy_direct, luminance_squared(g.glossy_direct * without_color)));
+    add(pixel, GLOSSY_INDIRECT, vec4(g.glossy_indirect, luminance_squared(g.glossy_indirect * without_color)));
+    add(pixel, GLOSSY_COLOR, vec4(glossy, alpha * g.apartness));
+    add(pixel, TRANSMISSION_DIRECT, vec4(g.transmission_direct, 0.0));
+    add(pixel, TRANSMISSION_INDIRECT, vec4(g.transmission_indirect, 0.0));
+    add(pixel, TRANSMISSION_COLOR, vec4(transmission, 0.0));
+    return g.glossy_direct + g.glossy_indirect + g.transmission_direct + g.transmission_indirect;
 }
 
 // Whether a sample belongs to the half of them by which noise is measured. Every second one would not do: in a sequence
@@ -81,48 +63,48 @@ bool is_of_half(uint number)
 
 void add_picture(ivec2 pixel, vec4 color)
 {
-    add(pixel, PLANE_COMBINED, color);
+    add(pixel, COMBINED, color);
     if (is_of_half(u_sample))
-        add(pixel, PLANE_HALF, color);
+        add(pixel, HALF, color);
 }
 
-void add_place(ivec2 pixel, Surface s)
+void add_world(ivec2 pixel)
 {
-    vec3 eye, d;
-    camera_ray(vec2(pixel) + 0.5, eye, d);
-    add(pixel, PLANE_NORMAL_DEPTH, vec4(s.normal, distance(eye, s.position)));
-    if (u_sample == 0u)
-        add(pixel, PLANE_POSITION, vec4(s.position, 1.0));
+    vec3 origin, direction;
+    camera_ray(vec2(pixel) + 0.5, origin, direction);
+    vec3 world = world_radiance(direction, 0.0);
+    vec4 shown = u_film_transparent ? vec4(0.0) : vec4(world, 1.0);
+    add(pixel, ENVIRONMENT, vec4(world, 0.0));
+    add(pixel, ALBEDO, vec4(shown.rgb, 0.0));
+    add_picture(pixel, shown);
 }
 
 void main()
 {
-    uint index = u_first + gl_GlobalInvocationID.x;
-    ivec2 pixel = tiled_pixel(index, u_size);
-    if (index >= u_end || any(greaterThanEqual(pixel, u_size)) || is_done(pixel))
+    uint slot = u_first + gl_GlobalInvocationID.x;
+    if (slot >= u_end)
         return;
-    for (int plane = 0; plane < N_PLANES && u_sample == 0u; plane++)
-        imageStore(u_film, ivec3(pixel, plane), vec4(0.0));
-    Seen seen = seen_at(pixel, HAS_TEXTURES);
-    if (!seen.hit) {
-        vec3 world = world_radiance(-seen.wo, 0.0);
-        add(pixel, PLANE_ENVIRONMENT, vec4(world, 0.0));
-        vec4 shown = u_film_transparent ? vec4(0.0) : vec4(world, 1.0);
-        add(pixel, PLANE_ALBEDO, vec4(shown.rgb, 0.0));
-        add_picture(pixel, shown);
+    ivec2 pixel = pixel_of(slot);
+    Point p = get_point(u_set, slot);
+    if (is_outside(pixel) || is_kind(p, POINT_DONE))
+        return;
+    for (int layer = 0; layer < u_n_planes && u_sample == 0u; layer++)
+        imageStore(u_film, ivec3(pixel, layer), vec4(0.0));
+    if (!is_kind(p, POINT_SURFACE)) {
+        add_world(pixel);
         return;
     }
-    vec3 L = seen.shading.emission, albedo = L;
-    if (HAS_SPECULAR) {
-        Bsdf b = bsdf_of(seen);
-        albedo += b.diffuse + b.glossy + b.transmission;
-        L += add_diffuse(pixel, b.diffuse) + add_glossy(pixel, b.glossy, b.alpha) + add_transmission(pixel, b.transmission);
-    } else {
-        albedo += seen.shading.base_color;
-        L += add_diffuse(pixel, seen.shading.base_color);
+    vec3 albedo = p.emission + p.diffuse, L = p.emission + add_diffuse(pixel, p.diffuse, get_arrival(slot));
+    if (u_has_lobes && is_kind(p, POINT_LOBES)) {
+        uint at = u_set + HIT_PLANES + POINT_PLANES;
+        vec3 glossy = get(at + 9u, slot).xyz, transmission = get(at + 10u, slot).xyz;
+        albedo += glossy + transmission;
+        L += add_specular(pixel, glossy, transmission, get(at, slot).w, get_gloss(slot));
     }
-    add(pixel, PLANE_EMISSION, vec4(seen.shading.emission, 0.0));
-    add(pixel, PLANE_ALBEDO, vec4(albedo, 0.0));
+    add(pixel, EMISSION, vec4(p.emission, 0.0));
+    add(pixel, ALBEDO, vec4(albedo, 0.0));
     add_picture(pixel, vec4(L, 1.0));
-    add_place(pixel, seen.surface);
+    add(pixel, NORMAL_DEPTH, vec4(p.normal, p.t));
+    if (u_sample == 0u)
+        add(pixel, POSITION, vec4(p.position, 1.0));
 }

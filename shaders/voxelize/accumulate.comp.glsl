@@ -3,7 +3,7 @@
 //             tessellation and overlap change nothing.
 // Formula:    sum_i A_i x_i
 // In:         triangles, materials, Occupancy, VoxelFirst (number of a word's first voxel)
-// Out:        Sums: per voxel area, albedo, normal, covered area, the voxel, emission: SUMS words
+// Out:        Sums: per voxel area, albedo, normal, covered area, the voxel, emission: u_n_sums words
 // Invocation: one strip of columns of one triangle
 
 #include "bind/voxel_part.glsl"
@@ -19,13 +19,13 @@ void visit(Strip strip, ivec3 cell)
     uint word = occupancy[address.x], bit = 1u << address.y;
     if ((word & bit) == 0u)  // a touch that voxelize/mark, compiled apart, rounded otherwise
         return;
-    uint at = (voxel_first[address.x] + uint(bitCount(word & (bit - 1u)))) * uint(SUMS);
+    uint at = (voxel_first[address.x] + uint(bitCount(word & (bit - 1u)))) * uint(u_n_sums);
     Part part = part_of(strip, cell);
     add(at, part.weight);
     add(at + 1u, part.weight * part.albedo);
     add(at + 4u, part.weight * turned_back(part.normal, strip.shape.axis));
     add(at + 7u, part.area * abs(part.normal.z) * part.alpha);
     sums[at + 8u] = uint(voxel.x | voxel.y << 10 | voxel.z << 20);  // the same from every writer
-    if (HAS_EMISSION)
+    if (u_emission_unit > 0.0)
         add(at + 9u, part.weight * part.emission / u_emission_unit);
 }

@@ -21,12 +21,12 @@ void main()
     uint i = u_first + gl_GlobalInvocationID.x;
     if (i >= u_end)
         return;
-    uint at = i * uint(SUMS);
+    uint at = i * uint(u_n_sums);
     float area = max(float(sums[at]), 1.0);
     vec3 normal = mean3(at + 4u, area);
     float coverage = clamp(float(sums[at + 7u]) / ONE, 0.0, 1.0);
     voxels[i].voxel = sums[at + 8u];
     voxels[i].albedo_coverage = packUnorm4x8(vec4(mean3(at + 1u, area), coverage));
     voxels[i].normal = dot(normal, normal) > 1e-2 ? pack_unit(normal) : NO_NORMAL;
-    voxels[i].emission = HAS_EMISSION ? mean3(at + 9u, area) * u_emission_unit : vec3(0.0);
+    voxels[i].emission = u_emission_unit > 0.0 ? mean3(at + 9u, area) * u_emission_unit : vec3(0.0);
 }

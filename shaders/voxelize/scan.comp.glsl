@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    exclusive prefix sums [Blelloch90]: each block adds up its own values, behind the sums of all blocks before it.
-// In:         Values; with HAS_SUMS the BlockSums of all blocks but the last
-// Out:        Firsts: the sum of all values before it, with HAS_SUMS in Values itself if need be; Total: the sum of all
+// In:         Values; with u_has_sums the BlockSums of all blocks but the last
+// Out:        Firsts: the sum of all values before it, with u_has_sums in Values itself if need be; Total: the sum of all
 // Invocation: eight neighbouring values; one workgroup a block
 
 #include "voxelize/scan_values.glsl"
 
-const bool HAS_SUMS = false;  // else each block adds up all values before it, while they are too few for another dispatch
+uniform bool u_has_sums;  // else each block adds up all values before it, while they are too few for another dispatch
 
 layout(std430) readonly buffer BlockSums { uint block_sums[]; };
 layout(std430) writeonly buffer Firsts { uint firsts[]; };
@@ -27,8 +27,8 @@ void main()
     if (lane == 0u)
         before = 0u;
     barrier();
-    for (uint i = lane; i < (HAS_SUMS ? block : block * 2048u); i += 256u)
-        blocks += HAS_SUMS ? block_sums[i] : value_at(i);
+    for (uint i = lane; i < (u_has_sums ? block : block * 2048u); i += 256u)
+        blocks += u_has_sums ? block_sums[i] : value_at(i);
     atomicAdd(before, blocks);
     for (uint reach = 1u; reach < 256u; reach *= 2u) {
         uint left = lane >= reach ? sums[lane - reach] : 0u;

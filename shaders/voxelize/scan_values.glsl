@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: the numbers that voxelize/block_sums and voxelize/scan add up: 2048 of them a block, eight an invocation.
 
-const bool ARE_BITS = false;  // a value is the number of bits that are set in its word
+uniform bool u_are_bits;  // a value is the number of bits that are set in its word
 
 layout(local_size_x = 256) in;
 
@@ -15,7 +15,7 @@ uint value_at(uint i)
 {
     if (i >= u_n_values)
         return 0u;
-    return ARE_BITS ? uint(bitCount(values[i])) : values[i];
+    return u_are_bits ? uint(bitCount(values[i])) : values[i];
 }
 
 uint block_of_workgroup()

@@ -9,42 +9,31 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..gpu.buffer import Buffer
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..settings import RenderSettings
+from .resolve import TILE, GpuFilm
 
-if TYPE_CHECKING:
-    from .resolve import GpuFilm
+MEASURE = Pass("adaptive/measure.comp.glsl")
+DECIDE = Pass("adaptive/decide.comp.glsl")
 
-MEASURE = Pass(("adaptive/measure.comp.glsl",), ("Errors",), textures=("u_film", "u_tiles"),
-               uniforms=("u_size", "u_n_samples"))
-DECIDE = Pass(("adaptive/decide.comp.glsl",), ("Errors", "Running"), images=("u_done",),
-              uniforms=("u_n_tiles", "u_n_samples", "u_threshold"))
-
-TILE = 8  # pixels a side: a workgroup of the passes over pixels
 EVERY = 8  # fewest samples between two looks, each of which waits for the device
 
 
 @dataclass(eq=False)
 class Progress:
-    """Of one picture.
+    """Of one picture. n_running: tiles that are not done."""
 
-    size       (width, height) in pixels
-    tiles      texture u4, a texel a tile: the samples with which it was done, 0 while it is not
-    n_running  tiles that are not done
-    """
-
-    size: tuple[int, int]
+    film: GpuFilm
     threshold: float
     min_samples: int
-    tiles: Any
-    errors: Any
-    running: Any
+    errors: Buffer
+    running: Buffer
     n_running: int
 
     def is_due(self, n_samples: int) -> bool:
@@ -57,9 +46,8 @@ class Progress:
 
     def n_saved(self, n_asked: int) -> int:
         """Samples of pixels that were not taken, of `n_asked` a pixel."""
-        width, height = self.tiles.size
-        done = np.frombuffer(self.tiles.read(alignment=1), "u4").reshape(height, width).astype("i8")
-        columns, rows = (np.minimum(TILE, n - TILE * np.arange(-(-n // TILE))) for n in self.size)
+        done = self.film.tiles.read().astype("i8")[..., 0]
+        columns, rows = (np.minimum(TILE, n - TILE * np.arange(-(-n // TILE))) for n in self.film.size)
         return int(((n_asked - done) * (done > 0) * rows[:, None] * columns).sum())
 
 
@@ -74,31 +62,28 @@ def is_adaptive(settings: RenderSettings) -> bool:
     return settings.adaptive_sampling and settings.view == "combined" and limits(settings)[1] < settings.samples
 
 
-def make_progress(scope: GpuScope, size: tuple[int, int], settings: RenderSettings) -> Progress | None:
+def make_progress(scope: GpuScope, film: GpuFilm, settings: RenderSettings) -> Progress | None:
     """The start of a picture; None unless `is_adaptive`."""
     if not is_adaptive(settings):
         return None
-    tiles = -(-size[0] // TILE), -(-size[1] // TILE)
-    n = tiles[0] * tiles[1]
-    return Progress(size, *limits(settings), scope.texture("tiles", tiles, 1, "u4", np.zeros(n, "u4")),
-                    scope.buffer("tile errors", 4 * n), scope.buffer("running tiles", 4), n)
+    n = film.tiles.size[0] * film.tiles.size[1]
+    return Progress(film, *limits(settings), scope.buffer("tile errors", 4 * n), scope.buffer("running tiles", 4), n)
 
 
-def is_done(device: Device, film: GpuFilm) -> bool:
+def is_done(device: Device, progress: Progress | None) -> bool:
     """Whether all tiles are done; looks which ones are where that is due, and then waits for the device."""
-    progress = film.progress
-    if progress is None or not progress.is_due(film.n_samples):
+    if progress is None or not progress.is_due(progress.film.n_samples):
         return False
-    _look(device, film, progress)
+    _look(device, progress.film, progress)
     return progress.n_running == 0
 
 
 def _look(device: Device, film: GpuFilm, progress: Progress) -> None:
-    n_tiles = progress.tiles.size
+    n_tiles = film.tiles.size
     n = n_tiles[0] * n_tiles[1]
-    device.dispatch(MEASURE, n * TILE * TILE, film.constants(), u_film=film.sums, u_tiles=progress.tiles,
-                    Errors=progress.errors, u_size=progress.size, u_n_samples=float(film.n_samples))
+    device.dispatch(MEASURE, n * TILE * TILE, **film.layers(), u_film=film.sums, u_tiles=film.tiles,
+                    Errors=progress.errors, u_size=film.size, u_n_samples=float(film.n_samples))
     progress.running.write(bytes(4))
-    device.dispatch(DECIDE, n, u_done=progress.tiles, Errors=progress.errors, Running=progress.running,
+    device.dispatch(DECIDE, n, u_done=film.tiles, Errors=progress.errors, Running=progress.running,
                     u_n_tiles=n_tiles, u_n_samples=film.n_samples, u_threshold=progress.threshold)
     progress.n_running = int(np.frombuffer(progress.running.read(4), "u4")[0])

@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
+from ..gpu.texture import Layers
 
 N, LAYERS = 32, 26
 
-INTEGRATE = Pass(("albedo/integrate.comp.glsl",), images=("u_table",))
+INTEGRATE = Pass("albedo/integrate.comp.glsl")
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +20,7 @@ class Albedo:
     """table: LAYERS pictures of N by N RGBA f4; one texel for scenes where nothing reflects."""
 
     scope: GpuScope
-    table: Any
+    table: Layers
 
 
 def albedo(device: Device, is_needed: bool) -> Albedo:
@@ -28,5 +28,5 @@ def albedo(device: Device, is_needed: bool) -> Albedo:
     scope = device.scope()
     table = scope.layers("albedo", (N, N) if is_needed else (1, 1), LAYERS if is_needed else 1, is_smooth=True)
     if is_needed:
-        device.dispatch(INTEGRATE, LAYERS * N * N, u_table=table)
+        device.dispatch(INTEGRATE, LAYERS * N * N, u_table=table, u_albedo=None)  # which it does not read
     return Albedo(scope, table)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""GpuScene -> Bvh: a tree of boxes over each mesh's triangles and one over the instances, for bind/trace.glsl.
+"""Meshes, placed -> Bvh: a tree of boxes over each mesh's triangles and one over the instances, for bind/trace.glsl.
 
 Built bottom-up by parallel locally-ordered clustering [Meister18]: leaves in Morton order, and in rounds each cluster
 merges with that near one with which it makes the smallest box, if both choose each other. The trees of all meshes grow
@@ -9,31 +9,28 @@ in the same rounds. Ties go by index, so the same scene gives the same trees.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ..gpu.buffer import Buffer
 from ..gpu.device import Device
 from ..gpu.passes import Pass
+from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
 from ..gpu.texels import Texels
 from ..scene import layouts
 from ..scene.bounds import placed_boxes
 from ..scene.types import Mesh
-from .upload import GpuScene
+from .upload.placing import Placing
+from .variants import variant_of
 from .voxelize import scan
 
-TRACE = ("u_bvh_nodes", "u_bvh_triangles", "u_bvh_instances")
-TRACE_UNIFORMS = ("u_bvh_root", "u_bvh_extent")
+NEAREST = Pass("bvh/nearest.comp.glsl")
+SURVIVE = Pass("bvh/survive.comp.glsl")
+MERGE = Pass("bvh/merge.comp.glsl")
 
-NEAREST = Pass(("bvh/nearest.comp.glsl",), ("Clusters", "Neighbours"),
-               uniforms=("u_n_clusters", "u_max_height", "u_take_next"))
-SURVIVE = Pass(("bvh/survive.comp.glsl",), ("Neighbours", "Places"))
-MERGE = Pass(("bvh/merge.comp.glsl",), ("Clusters", "Neighbours", "Places", "Merged", "BvhNodes"),
-             uniforms=("u_first_node",))
-
-RADIUS = 4  # neighbours on each side: 16 make trees of mixed sizes 4 % better, no others, in three times the time
-HIGHEST = 48  # nodes on any way from root to leaf; a million triangles grow to about 30
+HIGHEST = 62  # nodes on any way from the root through both levels to a leaf, which bind/trace.glsl has a stack for
+HIGHEST_OF_MESH = 36  # of them, in a mesh: a million triangles grow to about 30
 FEWEST = 128  # of the clusters that could merge, one in so many has to, or all go by twos in the next round
 LEAF, NONE = layouts.CONSTANTS["BVH_LEAF"], layouts.CONSTANTS["BVH_NONE"]
 _HEIGHT_BITS = layouts.CONSTANTS["BVH_HEIGHT_BITS"]
@@ -50,7 +47,7 @@ class MeshTrees:
     """
 
     scope: GpuScope
-    nodes: Any
+    nodes: Buffer
     triangles: Texels
     n_nodes: int
     roots: np.ndarray
@@ -75,14 +72,14 @@ class Bvh:
     height: int
     in_lockstep: bool
 
-    def resources(self) -> dict[str, Any]:
+    def resources(self) -> Resources:
         """The textures and uniforms of bind/trace.glsl, which reads the scene's geometry and materials too."""
         return {"u_bvh_nodes": self.nodes, "u_bvh_triangles": self.trees.triangles, "u_bvh_instances": self.instances,
                 "u_bvh_root": self.root, "u_bvh_extent": self.extent}
 
-    def constants(self) -> dict[str, bool | int | float]:
-        """The constants of bind/trace.glsl but HAS_ALPHA; the stack in steps, so that few variants are compiled."""
-        return {"STACK": -(-(self.height + 2) // 8) * 8, "IN_LOCKSTEP": self.in_lockstep}
+    def constants(self) -> dict[str, bool]:
+        """The constants of bind/trace.glsl."""
+        return variant_of(self.in_lockstep)
 
 
 def build_meshes(device: Device, meshes: tuple[Mesh, ...]) -> MeshTrees:
@@ -101,16 +98,16 @@ def build_meshes(device: Device, meshes: tuple[Mesh, ...]) -> MeshTrees:
     n_nodes = len(order) - int(is_used.sum())
     nodes = scope.buffer("bvh nodes of meshes", _NODE * n_nodes)
     made = scope.texels("bvh triangles", triangles)
-    grown = _grow(device, nodes, 0, _leaves(low[order], high[order], tree), int(is_used.sum()))
+    grown = _grow(device, nodes, 0, _leaves(low[order], high[order], tree), int(is_used.sum()), HIGHEST_OF_MESH)
     roots, boxes = np.full(len(meshes), NONE, "u4"), np.zeros((2, len(meshes), 3), "f4")
     roots[is_used], boxes[:, is_used] = grown["reference"], (grown["low"], grown["high"])
     return MeshTrees(scope, nodes, made, n_nodes, roots, boxes[0], boxes[1], _height(grown))
 
 
-def build_bvh(device: Device, gpu_scene: GpuScene, trees: MeshTrees) -> Bvh:
-    """Both levels of `gpu_scene`, whose meshes are those of `trees`. GpuError names the buffer that does not fit."""
-    scope, mesh = device.scope(), gpu_scene.scene.instances.mesh[gpu_scene.placing.order]
-    world_from_object, object_from_world = _matrices(gpu_scene)
+def build_bvh(device: Device, placing: Placing, trees: MeshTrees) -> Bvh:
+    """Both levels over what is placed, whose meshes `trees` are of. GpuError names the buffer that does not fit."""
+    scope, mesh = device.scope(), placing.placed.mesh[placing.order]
+    world_from_object, object_from_world = _matrices(placing)
     boxes = placed_boxes(np.stack([trees.low, trees.high], 1)[mesh], world_from_object)
     low, high = boxes.astype("f4").swapaxes(0, 1)  # rounded to nearest: rays allow for that
     rows = np.zeros(len(mesh), layouts.dtype(layouts.BVH_INSTANCE))
@@ -121,24 +118,24 @@ def build_bvh(device: Device, gpu_scene: GpuScene, trees: MeshTrees) -> Bvh:
     order = shown[_morton_order(low[shown], high[shown], np.zeros(len(shown), "u4"))]
     nodes = scope.texels("bvh nodes", _NODE * (trees.n_nodes + max(len(order) - 1, 0)))
     if trees.n_nodes:
-        device.ctx.copy_buffer(nodes.buffer, trees.nodes, _NODE * trees.n_nodes)
+        nodes.buffer.copy_from(trees.nodes, _NODE * trees.n_nodes)
     leaves = _leaves(low[order], high[order], np.zeros(len(order), "u4"))
     leaves["reference"] = LEAF + order
-    grown = _grow(device, nodes.buffer, trees.n_nodes, leaves, min(len(order), 1))
+    grown = _grow(device, nodes.buffer, trees.n_nodes, leaves, min(len(order), 1), HIGHEST - trees.height)
     extent = float(np.abs([low[shown], high[shown]]).max(initial=0))
     return Bvh(scope, trees, nodes, scope.texels("bvh instances", rows),
                int(grown["reference"][0]) if len(grown) else NONE, extent, _height(grown) + trees.height,
                device.profiler.is_software)
 
 
-def _matrices(gpu_scene: GpuScene) -> tuple[np.ndarray, np.ndarray]:
+def _matrices(placing: Placing) -> tuple[np.ndarray, np.ndarray]:
     """world_from_object and object_from_world (n, 3, 4) f8 of the instances in the device's order.
 
     World space is relative to the scene's centre. An instance squeezed flat has no inverse: it is given a hundred
     thousandth of its width as thickness.
     """
-    placed = gpu_scene.scene.instances.world_from_object[gpu_scene.placing.order, :3].copy()
-    placed[:, :, 3] -= gpu_scene.centre_ws
+    placed = placing.placed.world_from_object[placing.order, :3].copy()
+    placed[:, :, 3] -= placing.centre_ws
     u, scale, vt = np.linalg.svd(placed[:, :, :3])
     scale = np.maximum(scale, 1e-5 * scale[:, :1])
     placed[:, :, :3] = u * scale[:, None] @ vt
@@ -176,15 +173,19 @@ def _leaves(low: np.ndarray, high: np.ndarray, tree: np.ndarray) -> np.ndarray:
     return rows
 
 
-def _grow(device: Device, nodes: Any, first_node: int, leaves: np.ndarray, n_trees: int) -> np.ndarray:
-    """Merge `leaves` until each tree has one cluster, its root; return these. Fills `nodes` from `first_node` on."""
+def _grow(device: Device, nodes: Buffer, first_node: int, leaves: np.ndarray, n_trees: int,
+          highest: int) -> np.ndarray:
+    """Merge `leaves` until each tree has one cluster, its root; return these. Fills `nodes` from `first_node` on.
+
+    highest: nodes on the longest way from a root to a leaf that there may be
+    """
     n, take_next = len(leaves), False
     with device.scope() as scratch:
         clusters, merged = scratch.buffer("clusters", leaves), scratch.buffer("merged clusters", leaves.nbytes)
-        pairs: dict[str, Any] = {name: scratch.buffer(name.lower(), 4 * n) for name in ("Neighbours", "Places")}
+        pairs = {name: scratch.buffer(name.lower(), 4 * n) for name in ("Neighbours", "Places")}
         while n > n_trees:
-            device.dispatch(NEAREST, n, {"RADIUS": RADIUS}, Clusters=clusters, Neighbours=pairs["Neighbours"],
-                            u_n_clusters=n, u_max_height=HIGHEST - (n - n_trees).bit_length(), u_take_next=take_next)
+            device.dispatch(NEAREST, n, Clusters=clusters, Neighbours=pairs["Neighbours"],
+                            u_n_clusters=n, u_max_height=highest - (n - n_trees).bit_length(), u_take_next=take_next)
             device.dispatch(SURVIVE, n, **pairs)
             n_left = scan(device, scratch, pairs["Places"], n)
             device.dispatch(MERGE, n, Clusters=clusters, Merged=merged, BvhNodes=nodes, u_first_node=first_node,

@@ -4,33 +4,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ..gpu.buffer import Buffer
 from ..gpu.device import Device
 from ..gpu.passes import Pass
+from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
-from .bvh import TRACE, TRACE_UNIFORMS, Bvh
-from .lights import LIGHT_TEXTURES, LIGHT_UNIFORMS, LIGHTS, Lights
-from .octree import TREE, Octree
-from .upload import GpuScene
-from .voxelize import GEOMETRY, GRID, MATERIALS
+from ..scene.types import World
+from .lights import Lights
+from .lights.glow import Glow
+from .octree import Octree
+from .tracer import Tracer
+from .upload.placing import Placing
+from .upload.sky import Sky, world_uniforms
+from .upload.surfaces import Surfaces
 
-WORLD = ("u_world_radiance", "u_env_from_world", "u_has_env")
-SIDES = ("Octree", "Surfels")
-CACHE = (*SIDES, "Cache")
-CACHE_UNIFORMS = (*GRID, *TREE, "u_n_sides")
 PARTS = 5  # vec4 a side, see bind/cache.glsl
 
-LINK = Pass(("cache/link.comp.glsl",), (*GEOMETRY, *MATERIALS, *SIDES, *LIGHTS, "Links", "Found"),
-            textures=("u_env", *TRACE, *LIGHT_TEXTURES),
-            uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS, "u_first_ray", "u_end_ray"))
-DIRECT = Pass(("cache/direct.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, *LIGHTS, "Found"),
-              textures=("u_env", *TRACE, *LIGHT_TEXTURES),
-              uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, *LIGHT_UNIFORMS))
-BOUNCE = Pass(("cache/bounce.comp.glsl",), (*CACHE, "Links", "Changes"),
-              uniforms=(*CACHE_UNIFORMS, "u_sweep", "u_tolerance"))
+LINK = Pass("cache/link.comp.glsl")
+FOUND = Pass("cache/found.comp.glsl")
+DRAW = Pass("cache/draw.comp.glsl")
+DIRECT = Pass("cache/direct.comp.glsl")
+BOUNCE = Pass("cache/bounce.comp.glsl")
 
 TOLERANCE = 5e-3  # of the brightest radiance: bounces end when none changes more
 SPLIT = 4  # invocations that share the rays of a side
@@ -47,8 +44,8 @@ class Links:
 
     scope: GpuScope
     octree: Octree
-    links: Any
-    found: Any
+    links: Buffer
+    found: Buffer
     n_rays: int
     n_points: int
 
@@ -59,11 +56,11 @@ class LightCache:
 
     scope: GpuScope
     octree: Octree
-    entries: Any
-    changes: Any
+    entries: Buffer
+    changes: Buffer
     max_bounces: int
 
-    def resources(self) -> dict[str, Any]:
+    def resources(self) -> Resources:
         """What a pass that includes bind/cache.glsl needs."""
         return {**_octree(self.octree), "Cache": self.entries}
 
@@ -72,54 +69,64 @@ class LightCache:
         return _n_done(self.changes, self.max_bounces)
 
 
-def link(device: Device, gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights, n_rays: int,
-         n_points: int) -> Links:
-    """Trace the rays of all sides. Of `lights` the lamps do not matter."""
-    scope, n_sides = device.scope(), 2 * octree.n_surfels
+def link(device: Device, placing: Placing, surfaces: Surfaces, octree: Octree, tracer: Tracer, glow: Glow, sky: Sky,
+         world: World, n_rays: int, n_points: int) -> Links:
+    """Trace the rays of all sides."""
+    scope, n_sides, shines = device.scope(), 2 * octree.n_surfels, surfaces.emission_unit > 0
     links = scope.buffer("cache links", 4 * n_rays * n_sides)
     found = scope.buffer("found light", 16 * n_sides)
-    constants = {**_constants(gpu_scene, n_rays, n_points), **bvh.constants(), **lights.glow.constants(),
-                 "HAS_EMISSION": gpu_scene.emission_unit > 0, "SPLIT": SPLIT}
-    for first in range(0, n_rays, ROUND):
-        device.dispatch(LINK, SPLIT * n_sides, constants, **_resources(gpu_scene, octree, bvh, lights), Links=links,
-                        Found=found, u_first_ray=first, u_end_ray=min(first + ROUND, n_rays))
+    draws = {"u_n_lamps": 0, "u_n_tree_draws": 0, **glow.draws()}
+    common = {**_octree(octree), **draws, "Cache": None, "Found": found, "u_n_rays": n_rays, "u_n_points": n_points}
+    with device.scope() as scratch:
+        hits = scratch.buffer("what links hit", 16 * n_rays * n_sides * shines)
+        for first in range(0, n_rays, ROUND):
+            device.dispatch(LINK, SPLIT * n_sides, tracer.constants(), **tracer.resources(), **glow.sky(),
+                            **world_uniforms(sky, world), **common, Positions=placing.geometry["Positions"],
+                            Links=links, LinkHits=hits, u_first_ray=first, u_end_ray=min(first + ROUND, n_rays),
+                            u_keeps_hits=shines)
+        if shines:
+            device.dispatch(FOUND, n_sides, **placing.geometry, **surfaces.materials, **glow.emitters(), **common,
+                            LinkHits=hits)
     return Links(scope, octree, links, found, n_rays, n_points)
 
 
-def light_cache(device: Device, gpu_scene: GpuScene, links: Links, bvh: Bvh, lights: Lights,
-                max_bounces: int) -> LightCache:
+def light_cache(device: Device, placing: Placing, surfaces: Surfaces, links: Links, tracer: Tracer, lights: Lights,
+                sky: Sky, world: World, max_bounces: int) -> LightCache:
     """Light the surfels: what is drawn, then bounces until the change is below TOLERANCE or `max_bounces` were done."""
     scope, octree, n_sides = device.scope(), links.octree, 2 * links.octree.n_surfels
     entries = scope.buffer("light cache", 16 * PARTS * n_sides)
     changes = scope.buffer("changes", 4 * max_bounces, clear=True)
-    constants = {**_constants(gpu_scene, links.n_rays, links.n_points), **bvh.constants(), **lights.constants()}
-    device.dispatch(DIRECT, n_sides, constants, **_resources(gpu_scene, octree, bvh, lights), Cache=entries,
-                    Found=links.found)
+    n_draws = links.n_points * lights.glow.draws()["u_n_emitter_draws"]
+    n_part = _sides_at_once(device, n_draws)
+    with device.scope() as scratch:
+        draws = scratch.buffer("draws of sides", 32 * n_draws * min(n_part, n_sides))
+        for start in range(0, n_sides, n_part):
+            n = min(n_part, n_sides - start)
+            common = {**_octree(octree), "Cache": entries, "Draws": draws, "u_start": start, "u_stride": n,
+                      "u_n_points": links.n_points}
+            if n_draws:
+                device.dispatch(DRAW, n, **placing.geometry, **surfaces.materials, **lights.emitters(), **common)
+            device.dispatch(DIRECT, n, tracer.constants(), **tracer.resources(), **lights.resources(),
+                            **world_uniforms(sky, world), **common, Found=links.found, u_n_rays=links.n_rays)
     for sweep in range(max_bounces):
         if sweep and sweep % BATCH == 0 and _n_done(changes, sweep) < sweep:
             break
-        device.dispatch(BOUNCE, n_sides, {"N_RAYS": links.n_rays}, **_octree(octree), Cache=entries, Links=links.links,
-                        Changes=changes, u_sweep=sweep, u_tolerance=TOLERANCE)
+        device.dispatch(BOUNCE, n_sides, **_octree(octree), Cache=entries, Links=links.links, Changes=changes,
+                        u_n_rays=links.n_rays, u_sweep=sweep, u_tolerance=TOLERANCE)
     return LightCache(scope, octree, entries, changes, max_bounces)
 
 
-def _n_done(buffer: Any, n: int) -> int:
+def _sides_at_once(device: Device, n_draws: int) -> int:
+    """Sides whose draws fit one buffer."""
+    return max(int(device.limits["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]) // (32 * max(n_draws, 1)) // 64 * 64, 64)
+
+
+def _n_done(buffer: Buffer, n: int) -> int:
     """Of n sweeps those that were done, as bounce.comp.glsl ends them: until one changed little, or all."""
     changes = np.frombuffer(buffer.read(4 * n) if n else b"", "f4")
     is_small = changes <= np.float32(TOLERANCE) * np.maximum.accumulate(changes)
     return int(np.argmax(is_small)) + 1 if is_small.any() else n
 
 
-def _constants(gpu_scene: GpuScene, n_rays: int, n_points: int) -> dict[str, bool | int]:
-    return {"HAS_ALPHA": gpu_scene.has_alpha, "HAS_TEXTURES": gpu_scene.has_textures, "N_RAYS": n_rays,
-            "N_POINTS": n_points}
-
-
-def _octree(octree: Octree) -> dict[str, Any]:
+def _octree(octree: Octree) -> Resources:
     return {**octree.resources(), "Surfels": octree.surfels, "u_n_sides": 2 * octree.n_surfels}
-
-
-def _resources(gpu_scene: GpuScene, octree: Octree, bvh: Bvh, lights: Lights) -> dict[str, Any]:
-    """What a pass needs that lights the sides."""
-    return {**gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(), **_octree(octree), **bvh.resources(),
-            **lights.resources()}

@@ -10,19 +10,16 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..settings import RenderSettings
-from .cache import CACHE, CACHE_UNIFORMS, LightCache
-from .gather import CAMERA
+from .cache import LightCache
 from .light import build_levels
-from .raster import GBuffer
+from .parts import Part, Parts
+from .raster import Eye
 from .resolve import GpuFilm
-from .upload import GpuScene
-from .voxelize import GEOMETRY, GRID, MATERIALS, Grid, Voxels
+from .voxelize import Grid, Voxels
 
-ATTRIBUTE = Pass(("debug/attribute.comp.glsl",), ("Voxels",), images=("u_attribute",))
-VOXELS = Pass(("debug/voxels.comp.glsl",), textures=("u_attribute",), images=("u_film",),
-              uniforms=(*CAMERA, *GRID, "u_lod"))
-SURFELS = Pass(("debug/surfels.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE), textures=("u_visibility",),
-               images=("u_film",), uniforms=(*CAMERA, *CACHE_UNIFORMS))
+ATTRIBUTE = Pass("debug/attribute.comp.glsl")
+VOXELS = Pass("debug/voxels.comp.glsl")
+SURFELS = Pass("debug/surfels.comp.glsl")
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,26 +34,24 @@ def make_attribute(device: Device, voxels: Voxels, show_normal: bool) -> Attribu
     """The voxels' normals, or their albedo."""
     scope = device.scope()
     values = scope.cube("attribute", voxels.grid.n)
-    device.dispatch(ATTRIBUTE, voxels.n_voxels, {"SHOW_NORMAL": show_normal}, Voxels=voxels.voxels,
-                    u_attribute=(values, 0))
+    device.dispatch(ATTRIBUTE, voxels.n_voxels, Voxels=voxels.voxels, u_attribute=(values, 0),
+                    u_show_normal=show_normal)
     build_levels(device, values)
     return Attribute(scope, values)
 
 
-def show_voxels(device: Device, grid: Grid, values: Cube, gbuffer: GBuffer, settings: RenderSettings,
-                film: GpuFilm) -> None:
-    """Add one sample to `film`: the first filled texel of the asked mip level of `values` along each pixel's ray."""
+def show_voxels(device: Device, grid: Grid, values: Cube, eye: Eye, settings: RenderSettings, film: GpuFilm,
+                n: int) -> None:
+    """Add one sample of n pixels to `film`: the first filled texel of the asked mip level of `values` on each ray."""
     lod = min(settings.view_lod, grid.n.bit_length() - 1)
-    constants = {"SHADE_FACES": settings.view == "voxel_albedo", "SHOW_OPACITY": settings.view == "voxel_coverage"}
-    device.dispatch(VOXELS, gbuffer.n_invocations, constants, u_attribute=values, u_film=film.sums,
-                    **gbuffer.camera(), **grid.uniforms(), u_lod=lod)
-    film.n_samples += 1
+    device.dispatch(VOXELS, n, u_attribute=values, u_film=film.sums, **eye.camera(), **grid.uniforms(), **film.layers(),
+                    u_lod=lod, u_shade_faces=settings.view == "voxel_albedo",
+                    u_show_opacity=settings.view == "voxel_coverage")
 
 
-def show_surfels(device: Device, gpu_scene: GpuScene, cache: LightCache, gbuffer: GBuffer, settings: RenderSettings,
+def show_surfels(device: Device, cache: LightCache, eye: Eye, parts: Parts, part: Part, settings: RenderSettings,
                  film: GpuFilm) -> None:
-    """Add one sample to `film`: of each pixel's surface the surfel, its light or its albedo."""
-    device.dispatch(SURFELS, gbuffer.n_invocations, {"SHOW_ALBEDO": settings.view == "cache_albedo"},
-                    **gpu_scene.geometry, **gpu_scene.materials, **cache.resources(), **gbuffer.uniforms(),
-                    u_film=film.sums)
-    film.n_samples += 1
+    """Add one part of a sample to `film`: of each pixel's surface the surfel, its light or its albedo."""
+    device.dispatch(SURFELS, part.n, **cache.resources(), **eye.pixels(part), **parts.of(part, parts.eye),
+                    **film.layers(), u_film=film.sums,
+                    u_show_albedo=settings.view == "cache_albedo")

@@ -14,12 +14,11 @@ from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..scene.types import View
 from ..settings import RenderSettings
-from .upload import GpuScene
-from .voxelize import GRID, Voxels
+from .upload.lamps import Lamps
+from .voxelize import Voxels
 
-INJECT = Pass(("light/inject.comp.glsl",), ("Occupancy", "Voxels", "Lights"), images=("u_radiance",),
-              uniforms=(*GRID, "u_eye", "u_ambient", "u_specular", "u_shininess"))
-MIP = Pass(("light/mip.comp.glsl",), images=("u_fine", "u_coarse"), uniforms=("u_n",))
+INJECT = Pass("light/inject.comp.glsl")
+MIP = Pass("light/mip.comp.glsl")
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,20 +43,20 @@ class Injection(NamedTuple):
     eye: tuple[float, float, float]
 
 
-def injection_of(settings: RenderSettings, gpu_scene: GpuScene, view: View) -> Injection:
+def injection_of(settings: RenderSettings, lamps: Lamps, view: View) -> Injection:
     """The part of the settings and the view that the light in the voxels depends on."""
-    eye = view.world_from_view[:3, 3] - gpu_scene.centre_ws if settings.injection_specular else np.zeros(3)
+    eye = view.world_from_view[:3, 3] - lamps.centre_ws if settings.injection_specular else np.zeros(3)
     return Injection(settings.injection_samples, settings.injection_ambient, settings.injection_specular,
                      settings.injection_shininess, (float(eye[0]), float(eye[1]), float(eye[2])))
 
 
-def light(device: Device, gpu_scene: GpuScene, voxels: Voxels, injection: Injection) -> LitVoxels:
+def light(device: Device, lamps: Lamps, voxels: Voxels, injection: Injection) -> LitVoxels:
     """Light the voxels."""
     scope = device.scope()
     radiance = scope.cube("radiance", voxels.grid.n)
-    constants = {"N_LIGHTS": len(gpu_scene.scene.lights), "LIGHT_POINTS": injection.points}
-    device.dispatch(INJECT, voxels.n_voxels, constants, Occupancy=voxels.occupancy, Voxels=voxels.voxels,
-                    Lights=gpu_scene.lights, u_radiance=(radiance, 0), **voxels.grid.uniforms(), u_eye=injection.eye,
+    device.dispatch(INJECT, voxels.n_voxels, Occupancy=voxels.occupancy, Voxels=voxels.voxels,
+                    Lights=lamps.rows, u_n_lights=len(lamps.lights), u_n_points=injection.points,
+                    u_radiance=(radiance, 0), **voxels.grid.uniforms(), u_eye=injection.eye,
                     u_ambient=injection.ambient, u_specular=injection.specular, u_shininess=injection.shininess)
     build_levels(device, radiance)
     return LitVoxels(scope, voxels, radiance)

@@ -10,19 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ..gpu.buffer import Buffer
 from ..gpu.device import Device
 from ..gpu.passes import Pass
+from ..gpu.texture import Texture
+from ..needs import Needs
 from ..settings import PASSES, RenderSettings
 from .adaptive import is_adaptive
 from .resolve import PLANES, GpuFilm
-from .upload import GpuScene
 
-MEAN = Pass(("planes/mean.comp.glsl",), textures=("u_film", "u_tiles"), images=("u_mean",),
-            uniforms=("u_size", "u_plus", "u_minus", "u_divisor", "u_n_samples"))
+MEAN = Pass("planes/mean.comp.glsl")
 
 DEPTH_OF_NOTHING = 1e10  # as in Cycles
 
@@ -43,7 +43,6 @@ class Source:
     def planes(self) -> frozenset[str]:
         """All that it needs."""
         return frozenset((*self.plus, *self.minus, self.divisor)) - {""}
-
 
 SOURCES = {
     "Depth": Source(("POSITION",)),
@@ -67,7 +66,7 @@ SOURCES = {
 }
 
 
-def planes_for(gpu_scene: GpuScene, settings: RenderSettings, denoiser: str) -> tuple[str, ...]:
+def planes_for(needs: Needs, settings: RenderSettings, denoiser: str) -> tuple[str, ...]:
     """The planes that the picture and the asked passes are made of, and those that the denoiser of that name needs."""
     wanted = {"COMBINED"}.union(*(SOURCES[name].planes for name in settings.passes))
     if is_adaptive(settings):
@@ -75,31 +74,30 @@ def planes_for(gpu_scene: GpuScene, settings: RenderSettings, denoiser: str) -> 
     if denoiser == "openimagedenoise":
         wanted.update(_GUIDES)
     elif denoiser:
-        wanted.update(_LIGHT, _GLOSSY_LIGHT if gpu_scene.has_specular else ())
+        wanted.update(_LIGHT, _GLOSSY_LIGHT if needs.gloss else ())
     return tuple(plane for plane in PLANES if plane in wanted)
 
 
-def mean(device: Device, film: GpuFilm, name: str, texture: Any) -> None:
+def mean(device: Device, film: GpuFilm, name: str, texture: Texture) -> None:
     """Make the render pass `name` in `texture`, RGBA f4 of the film's size."""
-    assert film.gbuffer is not None, "a film without a sample"
     source = SOURCES[name]
     plus, minus = (sum(1 << film.layer(plane) for plane in planes) for planes in (source.plus, source.minus))
-    device.dispatch(MEAN, film.gbuffer.n_invocations, film.constants(), u_film=film.sums, u_tiles=film.tiles,
+    device.dispatch(MEAN, film.n_invocations, **film.layers(), u_film=film.sums, u_tiles=film.tiles,
                     u_mean=texture, u_size=film.size, u_plus=plus, u_minus=minus,
                     u_divisor=film.layer(source.divisor), u_n_samples=float(film.n_samples))
 
 
-def read_pixels(device: Device, texture: Any, staging: Any) -> np.ndarray:
+def read_pixels(device: Device, texture: Texture, staging: Buffer) -> np.ndarray:
     """What is in a texture RGBA f4, (height, width, 4) f4, by way of a buffer of its size."""
     width, height = texture.size
     pixels = np.empty((height, width, 4), "f4")
     with device.profiler.host("read back"):
-        texture.read_into(staging)
+        texture.copy_to(staging)
         staging.read_into(pixels)
     return pixels
 
 
-def read_pass(device: Device, film: GpuFilm, name: str, texture: Any, staging: Any) -> np.ndarray:
+def read_pass(device: Device, film: GpuFilm, name: str, texture: Texture, staging: Buffer) -> np.ndarray:
     """The render pass `name`, (height, width, channels) f4; `texture` and `staging` are overwritten."""
     mean(device, film, name, texture)
     pixels, finish = read_pixels(device, texture, staging), _FINISH.get(name)

@@ -1,28 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""GpuScene and View -> GBuffer: which triangle each pixel sees."""
+"""GpuScene and View -> Hits: which triangle each pixel sees."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from ..gpu.device import Device, DrawCall
+from ..gpu.framebuffer import Framebuffer
 from ..gpu.passes import Pass
+from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
+from ..gpu.texture import Texture
 from ..scene.types import View
 from ..settings import RenderSettings
-from .bvh import TRACE, TRACE_UNIFORMS, Bvh
+from .parts import Part, Parts
 from .pixel_filter import jitter
+from .tracer import Tracer
 from .upload import GpuScene
-from .voxelize import GEOMETRY, MATERIALS
 
-VISIBILITY = Pass(("raster/visibility.vert.glsl", "raster/visibility.frag.glsl"), (*GEOMETRY, *MATERIALS),
-                  uniforms=("u_clip_from_world", "u_first_instance", "u_first_triangle", "u_sample", "u_seed"))
-CAMERA = Pass(("raster/camera.comp.glsl",), (*GEOMETRY, *MATERIALS), textures=("u_tiles", *TRACE), images=("u_seen",),
-              uniforms=("u_ray_origin", "u_ray_direction", "u_size", "u_depth", *TRACE_UNIFORMS))
+VISIBILITY = Pass("raster/visibility.vert.glsl", "raster/visibility.frag.glsl")
+HITS = Pass("raster/hits.comp.glsl")
+CAMERA = Pass("raster/camera.comp.glsl")
+
+MOST = 1024  # samples that get numbers of a pixel's own; past them it goes on with its neighbours'
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,39 +34,32 @@ class Targets:
 
     scope: GpuScope
     size: tuple[int, int]
-    visibility: Any
-    framebuffer: Any
+    visibility: Texture
+    framebuffer: Framebuffer
 
 
 @dataclass(frozen=True, eq=False)
-class GBuffer:
-    """visibility: instance + 1 (0: nothing), triangle, barycentrics. world_from_clip: (4, 4) f8, to the centre.
+class Eye:
+    """What one sample looks through. world_from_clip: (4, 4) f8, to the centre.
 
-    tiles  texture u4: not 0 where a tile of 8 by 8 pixels needs no more light; None: all need it
+    tiles     texture u4: not 0 where a tile of 8 by 8 pixels needs no more light
+    is_drawn  whether the rasteriser has found what the pixels see
     """
 
-    targets: Targets
+    size: tuple[int, int]
     world_from_clip: np.ndarray
-    tiles: Any = None
+    tiles: Texture
+    sample: int
+    is_drawn: bool
 
-    @property
-    def n_invocations(self) -> int:
-        """Invocations of a pass over all pixels in tiles of 8 by 8."""
-        width, height = self.targets.size
-        return -(-width // 8) * -(-height // 8) * 64
-
-    def constants(self) -> dict[str, bool]:
-        """The constants of bind/tiles.glsl."""
-        return {"IS_ADAPTIVE": self.tiles is not None}
-
-    def uniforms(self) -> dict[str, Any]:
-        """The uniforms of bind/camera.glsl and bind/gbuffer.glsl."""
-        return {"u_visibility": self.targets.visibility, **self.camera()}
-
-    def camera(self) -> dict[str, Any]:
+    def camera(self) -> Resources:
         """The uniforms of bind/camera.glsl."""
         origin, direction, _ = self.rays
-        return {"u_ray_origin": origin, "u_ray_direction": direction, "u_size": self.targets.size}
+        return {"u_ray_origin": origin, "u_ray_direction": direction, "u_size": self.size}
+
+    def pixels(self, part: Part) -> Resources:
+        """The uniforms of bind/pixels.glsl."""
+        return {**self.camera(), "u_start": part.start}
 
     @cached_property
     def rays(self) -> tuple[np.ndarray, np.ndarray, float]:
@@ -93,30 +89,38 @@ def make_targets(device: Device, size: tuple[int, int]) -> Targets:
     """Textures for pictures of `size` pixels."""
     scope = device.scope()
     visibility = scope.texture("visibility", size, 4, "u4")
-    return Targets(scope, size, visibility, scope.framebuffer("visibility", [visibility], with_depth=True))
+    return Targets(scope, size, visibility, scope.framebuffer("visibility", visibility))
 
 
-def raster(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, settings: RenderSettings,
-           sample: int, tiles: Any = None, bvh: Bvh | None = None) -> GBuffer:
-    """What each pixel sees in one sample, its centre shifted by the pixel filter: by rays if there is a `bvh`."""
+def look(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, settings: RenderSettings, sample: int,
+         tiles: Texture, tracer: Tracer | None = None) -> Eye:
+    """One sample's eye, its pixels shifted by the filter. Draws the picture, unless rays will find what they see."""
     clip_from_world = _clip_from_world(gpu_scene, view, settings, sample)
-    gbuffer = GBuffer(targets, np.linalg.inv(clip_from_world), tiles)
-    if bvh and can_trace(gpu_scene, bvh):
-        device.dispatch(CAMERA, gbuffer.n_invocations, {**gbuffer.constants(), **bvh.constants()}, **gpu_scene.geometry,
-                        **gpu_scene.materials, **bvh.resources(), **gbuffer.camera(), u_tiles=tiles,
-                        u_seen=targets.visibility, u_depth=gbuffer.rays[2])
-    else:
+    is_drawn = tracer is None or not can_trace(gpu_scene, tracer)
+    if is_drawn:
         _draw(device, gpu_scene, targets, clip_from_world, settings, sample)
-    return gbuffer
+    return Eye(view.size, np.linalg.inv(clip_from_world), tiles, sample, is_drawn)
 
 
-def can_trace(gpu_scene: GpuScene, bvh: Bvh) -> bool:
+def raster(device: Device, gpu_scene: GpuScene, eye: Eye, targets: Targets, tracer: Tracer | None,
+           settings: RenderSettings, parts: Parts, part: Part) -> None:
+    """Fill the hits of one part with what its pixels see."""
+    common = {**eye.pixels(part), **parts.of(part, parts.eye), "u_tiles": eye.tiles, "u_sample": eye.sample,
+              "u_n_samples": 1 << min(settings.samples - 1, MOST - 1).bit_length(), "u_seed": settings.seed}
+    if eye.is_drawn:
+        device.dispatch(HITS, part.n, **gpu_scene.geometry, **common, u_visibility=targets.visibility)
+    else:
+        assert tracer is not None
+        device.dispatch(CAMERA, part.n, tracer.constants(), **tracer.resources(), **common, u_depth=eye.rays[2])
+
+
+def can_trace(gpu_scene: GpuScene, tracer: Tracer) -> bool:
     """Whether rays do better than the rasteriser, which a software renderer has at a tenth of their time.
 
     A graphics card takes .3 ms to change between drawing and dispatches. Alpha is for the rasteriser, which spreads the
     samples that it lets through evenly.
     """
-    return not bvh.in_lockstep and not gpu_scene.has_alpha
+    return not tracer.bvh.in_lockstep and not gpu_scene.surfaces.has_alpha.any()
 
 
 def _clip_from_world(gpu_scene: GpuScene, view: View, settings: RenderSettings, sample: int) -> np.ndarray:
@@ -132,10 +136,9 @@ def _clip_from_world(gpu_scene: GpuScene, view: View, settings: RenderSettings, 
 def _draw(device: Device, gpu_scene: GpuScene, targets: Targets, clip_from_world: np.ndarray,
           settings: RenderSettings, sample: int) -> None:
     """Fill `targets` by drawing all triangles."""
-    device.clear(targets.framebuffer)
-    constants = {"HAS_ALPHA": gpu_scene.has_alpha, "HAS_TEXTURES": gpu_scene.has_textures}
+    targets.framebuffer.clear()
     calls = (DrawCall(3 * part.n_triangles, part.n_instances,
                       {"u_first_instance": part.first_instance, "u_first_triangle": part.first_triangle})
-             for part in gpu_scene.draws)
-    device.draw(VISIBILITY, targets.framebuffer, calls, constants, **gpu_scene.geometry, **gpu_scene.materials,
+             for part in gpu_scene.placing.draws)
+    device.draw(VISIBILITY, targets.framebuffer, calls, **{**gpu_scene.geometry, **gpu_scene.opacity},
                 u_clip_from_world=clip_from_world, u_sample=sample, u_seed=settings.seed)

@@ -1,30 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Incident -> Film: the light that leaves towards the eye, summed over the samples."""
+"""Points, Arrivals and Gloss -> Film: the light that leaves towards the eye, summed over the samples."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
+from ..gpu.texture import Layers, Texture
 from ..scene.types import View
-from .adaptive import Progress
-from .cache import WORLD, LightCache
-from .gather import CAMERA, Incident
-from .raster import GBuffer
+from .parts import Part, Parts
+from .raster import Eye
 from .upload import GpuScene
-from .voxelize import GEOMETRY, MATERIALS
 
-if TYPE_CHECKING:
-    from .denoise.choice import Denoiser
-
-ACCUMULATE = Pass(("resolve/accumulate.comp.glsl",), (*GEOMETRY, *MATERIALS),
-                  textures=("u_visibility", "u_tiles", "u_env", "u_albedo"), images=("u_film", "u_incident"),
-                  uniforms=(*CAMERA, *WORLD, "u_film_transparent", "u_sample"))
+ACCUMULATE = Pass("resolve/accumulate.comp.glsl")
 
 # What bind/film.glsl knows, in the order of layers
 PLANES = ("COMBINED", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_FOUND", "DIFFUSE_COLOR", "GLOSSY_DIRECT",
@@ -32,64 +24,58 @@ PLANES = ("COMBINED", "DIFFUSE_DIRECT", "DIFFUSE_INDIRECT", "DIFFUSE_FOUND", "DI
           "EMISSION", "ENVIRONMENT", "ALBEDO", "NORMAL_DEPTH", "HALF", "POSITION")
 
 
+TILE = 8  # pixels a side: a workgroup of the passes over pixels
+
+
 @dataclass(eq=False)
 class GpuFilm:
     """The running sums on the device.
 
-    planes   those of PLANES that were asked for: a layer of `sums` each
-    centre   (3,) f8, metres: what positions are relative to
-    progress which tiles are done, if any can be before the last sample
-    gbuffer  of the latest sample
-    is_last  whether the frame ends with this one
-    limits   a sentence for each setting that the device was too small for
-    cache    the light that its rays found, if there were rays
-    denoiser what makes a picture of it, if one is wanted
+    planes     those of PLANES that were asked for: a layer of `sums` each
+    centre     (3,) f8, metres: what positions are relative to
+    tiles      texture u4: the samples with which a tile of 8 by 8 pixels was done, 0 while it is not
+    n_samples  so far
+    eye        of the latest sample
     """
 
     view: View
     planes: tuple[str, ...]
-    sums: Any
+    sums: Layers
     centre: np.ndarray
-    progress: Progress | None = None
+    tiles: Texture
     n_samples: int = 0
-    is_last: bool = False
-    gbuffer: GBuffer | None = None
-    limits: list[str] = field(default_factory=list)
-    cache: LightCache | None = None
-    denoiser: Denoiser | None = None
+    eye: Eye | None = None
 
     @property
     def size(self) -> tuple[int, int]:
         """Width and height in pixels."""
         return self.view.size
 
+    @property
+    def n_invocations(self) -> int:
+        """Invocations of a pass over all pixels in tiles of 8 by 8."""
+        return self.tiles.size[0] * self.tiles.size[1] * TILE * TILE
+
     def layer(self, plane: str) -> int:
         """Where a plane is; -1: nowhere."""
         return self.planes.index(plane) if plane in self.planes else -1
 
-    def constants(self) -> dict[str, int]:
-        """The constants of bind/film.glsl and bind/tiles.glsl."""
-        return {**{f"PLANE_{plane}": self.layer(plane) for plane in PLANES}, "N_PLANES": len(self.planes),
-                "IS_ADAPTIVE": self.progress is not None}
-
-    @property
-    def tiles(self) -> Any:
-        """The texture of bind/tiles.glsl; None: there is no such thing."""
-        return self.progress and self.progress.tiles
+    def layers(self) -> dict[str, tuple[int, ...]]:
+        """The uniform of bind/film.glsl."""
+        return {"u_planes": tuple(self.layer(plane) for plane in PLANES)}
 
 
 def make_film(scope: GpuScope, view: View, planes: tuple[str, ...], centre: np.ndarray,
-              progress: Progress | None = None, is_black: bool = True) -> GpuFilm:
+              is_black: bool = True) -> GpuFilm:
     """A film in `scope` for what `view` sees; it need not be black where `resolve` sets it with the first sample."""
-    sums = scope.layers("film", view.size, len(planes), is_black=is_black)
-    return GpuFilm(view, planes, sums, centre, progress)
+    tiles = -(-view.size[0] // TILE), -(-view.size[1] // TILE)
+    none_done = scope.texture("tiles", tiles, 1, "u4", np.zeros(tiles[0] * tiles[1], "u4"))
+    return GpuFilm(view, planes, scope.layers("film", view.size, len(planes), is_black=is_black), centre, none_done)
 
 
-def resolve(device: Device, gpu_scene: GpuScene, gbuffer: GBuffer, incident: Incident, film: GpuFilm) -> None:
-    """Add one sample to `film`."""
-    constants = {**gpu_scene.surface_constants(), **film.constants(), **incident.constants()}
-    device.dispatch(ACCUMULATE, gbuffer.n_invocations, constants, **gpu_scene.geometry, **gpu_scene.materials,
-                    **gpu_scene.world(), **gbuffer.uniforms(), u_tiles=gbuffer.tiles, u_film=film.sums,
-                    u_incident=incident.layers, u_albedo=gpu_scene.albedo,
-                    u_film_transparent=gpu_scene.scene.film_transparent, u_sample=film.n_samples)
-    film.n_samples += 1
+def resolve(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part, film: GpuFilm) -> None:
+    """Add one part of a sample to `film`."""
+    device.dispatch(ACCUMULATE, part.n, **gpu_scene.world(), **eye.pixels(part), **parts.of(part, parts.eye),
+                    **film.layers(), u_gloss=parts.planes["gloss"], u_film=film.sums, u_n_planes=len(film.planes),
+                    u_film_transparent=gpu_scene.scene.film_transparent, u_sample=film.n_samples,
+                    u_has_lobes=gpu_scene.needs.gloss)

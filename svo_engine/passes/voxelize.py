@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""GpuScene -> Voxels: every voxel that a surface touches, with the mean of what the surfaces in it look like.
+"""Surfaces, placed -> Voxels: every voxel that a surface touches, with the mean of what the surfaces in it look like.
 
 Conservative, by compute [Schwarz10], in five steps: mark bits, number the voxels, add integer sums, average. The same
 scene gives the same bits, because nothing depends on the order in which invocations run.
@@ -8,34 +8,30 @@ scene gives the same bits, because nothing depends on the order in which invocat
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ..gpu.buffer import Buffer
 from ..gpu.device import Device
 from ..gpu.passes import Pass
+from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
 from ..scene import layouts
-from .upload import GpuScene
+from .albedo import Albedo
+from .upload.placing import Placing
+from .upload.surfaces import Surfaces
 
-GEOMETRY = ("Instances", "Positions", "Triangles", "CornerNormals", "CornerUvs", "SlotMaterials")
-MATERIALS = ("Materials", "Textures", "Texels")
-GRID = ("u_grid_n", "u_grid_low", "u_voxels_per_metre")
-WORK = (*GRID, "u_n_instances", "u_n_work")
-
-COUNT = Pass(("voxelize/count.comp.glsl",), (*GEOMETRY, "StripFirst"), uniforms=WORK)
-MARK = Pass(("voxelize/mark.comp.glsl",), (*GEOMETRY, "StripFirst", "Occupancy"), uniforms=WORK)
-ACCUMULATE = Pass(("voxelize/accumulate.comp.glsl",),
-                  (*GEOMETRY, *MATERIALS, "StripFirst", "Occupancy", "VoxelFirst", "Sums"),
-                  textures=("u_albedo",),
-                  uniforms=(*WORK, "u_emission_unit"))
-AVERAGE = Pass(("voxelize/average.comp.glsl",), ("Sums", "Voxels"), uniforms=("u_emission_unit",))
-BLOCK_SUMS = Pass(("voxelize/block_sums.comp.glsl",), ("Values", "BlockSums"), uniforms=("u_n_values",))
-SCAN = Pass(("voxelize/scan.comp.glsl",), ("Values", "BlockSums", "Firsts", "Total"), uniforms=("u_n_values",))
+COUNT = Pass("voxelize/count.comp.glsl")
+MARK = Pass("voxelize/mark.comp.glsl")
+ACCUMULATE = Pass("voxelize/accumulate.comp.glsl")
+AVERAGE = Pass("voxelize/average.comp.glsl")
+BLOCK_SUMS = Pass("voxelize/block_sums.comp.glsl")
+SCAN = Pass("voxelize/scan.comp.glsl")
 
 PADDING = 2  # empty voxels around the scene: a filter never reads past the border
 SHIFT = 0.3819660113  # of a voxel, irrational, so that walls on round coordinates do not lie in cell borders
 SCAN_BLOCK = 2048
+SUMS = 9  # words a voxel, and three more where anything shines
 FEW_BLOCKS = 24  # whose sums cost less than the dispatch that finds them for all
 
 
@@ -47,7 +43,7 @@ class Grid:
     low: tuple[float, float, float]
     voxel_size: float
 
-    def uniforms(self) -> dict[str, Any]:
+    def uniforms(self) -> Resources:
         """The uniforms of bind/grid.glsl."""
         return {"u_grid_n": self.n, "u_grid_low": self.low, "u_voxels_per_metre": 1 / self.voxel_size}
 
@@ -58,8 +54,8 @@ class Voxels:
 
     scope: GpuScope
     grid: Grid
-    occupancy: Any
-    voxels: Any
+    occupancy: Buffer
+    voxels: Buffer
     n_voxels: int
 
 
@@ -70,62 +66,60 @@ def make_grid(extent: float, n: int) -> Grid:
     return Grid(n, (low, low, low), voxel_size)
 
 
-def voxelize(device: Device, gpu_scene: GpuScene, n: int) -> Voxels:
+def voxelize(device: Device, placing: Placing, surfaces: Surfaces, table: Albedo, n: int) -> Voxels:
     """Voxelize at n voxels a side, n a multiple of 4. GpuError if the voxels do not fit the device."""
-    grid, scope = make_grid(gpu_scene.extent, n), device.scope()
-    if not gpu_scene.n_work:
+    grid, scope = make_grid(placing.extent, n), device.scope()
+    if not placing.n_work:
         occupancy = scope.buffer("occupancy", n**3 // 8, clear=True)
         return Voxels(scope, grid, occupancy, scope.buffer("voxels", 0), 0)
     with device.scope() as scratch:
-        work, n_strips = cut_strips(device, scratch, gpu_scene, grid)
+        work, n_strips = cut_strips(device, scratch, placing, grid)
         occupancy = mark(device, scope, work, n_strips, grid)
-        bits: dict[str, Any] = {"Occupancy": occupancy}
-        bits["VoxelFirst"], n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
-
-        has_emission = gpu_scene.emission_unit > 0
-        constants = {"HAS_EMISSION": has_emission, "SUMS": 12 if has_emission else 9}
-        sums = scratch.buffer("voxel sums", 4 * constants["SUMS"] * n_voxels, clear=True)
-        unit = {"Sums": sums, "u_emission_unit": gpu_scene.emission_unit}
-        device.dispatch(ACCUMULATE, n_strips, {**constants, **gpu_scene.surface_constants()},
-                        **work, **gpu_scene.materials, **bits, **unit, u_albedo=gpu_scene.albedo)
+        firsts, n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
+        n_sums = SUMS + 3 * (surfaces.emission_unit > 0)
+        sums: Resources = {"Sums": scratch.buffer("voxel sums", 4 * n_sums * n_voxels, clear=True),
+                           "u_n_sums": n_sums, "u_emission_unit": surfaces.emission_unit}
+        device.dispatch(ACCUMULATE, n_strips, **work, **surfaces.materials, **sums, Occupancy=occupancy,
+                        VoxelFirst=firsts, u_albedo=table.table)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
-        device.dispatch(AVERAGE, n_voxels, constants, Voxels=voxels, **unit)
+        device.dispatch(AVERAGE, n_voxels, Voxels=voxels, **sums)
     return Voxels(scope, grid, occupancy, voxels, n_voxels)
 
 
-def cut_strips(device: Device, scratch: GpuScope, gpu_scene: GpuScene, grid: Grid) -> tuple[dict[str, Any], int]:
+def cut_strips(device: Device, scratch: GpuScope, placing: Placing, grid: Grid) -> tuple[Resources, int]:
     """The resources of bind/voxel_work.glsl and the number of strips: voxelization's work, cut evenly."""
-    n, counts = gpu_scene.n_work, scratch.buffer("strip counts", 4 * gpu_scene.n_work)
-    work = {**gpu_scene.geometry, **grid.uniforms(), "u_n_instances": gpu_scene.n_instances, "u_n_work": n}
+    n, counts = placing.n_work, scratch.buffer("strip counts", 4 * placing.n_work)
+    work = {**placing.geometry, **grid.uniforms(), "u_n_instances": placing.n_instances, "u_n_work": n}
     device.dispatch(COUNT, n, **work, StripFirst=counts)
-    work["StripFirst"] = scratch.buffer("strips", 4 * n)
-    return work, scan(device, scratch, counts, n, work["StripFirst"])
+    firsts = scratch.buffer("strips", 4 * n)
+    return {**work, "StripFirst": firsts}, scan(device, scratch, counts, n, firsts)
 
 
-def mark(device: Device, scope: GpuScope, work: dict[str, Any], n_strips: int, grid: Grid) -> Any:
+def mark(device: Device, scope: GpuScope, work: Resources, n_strips: int, grid: Grid) -> Buffer:
     """A buffer in `scope` with a bit for each voxel of `grid`, set where a surface touches it."""
     occupancy = scope.buffer("occupancy", grid.n**3 // 8, clear=True)
     device.dispatch(MARK, n_strips, Occupancy=occupancy, **work)
     return occupancy
 
 
-def number_bits(device: Device, scope: GpuScope, bits: Any, n_words: int) -> tuple[Any, int]:
+def number_bits(device: Device, scope: GpuScope, bits: Buffer, n_words: int) -> tuple[Buffer, int]:
     """For each of n_words words of `bits` the number of set bits before it, and the number of all."""
     first = scope.buffer("bit numbers", 4 * n_words)
     return first, scan(device, scope, bits, n_words, first, are_bits=True)
 
 
-def scan(device: Device, scratch: GpuScope, values: Any, n: int, firsts: Any = None, are_bits: bool = False) -> int:
+def scan(device: Device, scratch: GpuScope, values: Buffer, n: int, firsts: Buffer | None = None,
+         are_bits: bool = False) -> int:
     """Put the sum of all before each of n values (u4) into `firsts`, or in their place; return the sum of all.
 
     are_bits: a value is the number of bits that are set in its word
     """
-    n_blocks, bits = -(-n // SCAN_BLOCK), {"ARE_BITS": are_bits}
+    n_blocks = -(-n // SCAN_BLOCK)
     sums, total = scratch.buffer("block sums", 4 * n_blocks), scratch.buffer("total", 4, clear=True)
-    resources = {"Values": values, "BlockSums": sums, "u_n_values": n}
+    resources: Resources = {"Values": values, "BlockSums": sums, "u_n_values": n, "u_are_bits": are_bits}
     has_sums = n_blocks > FEW_BLOCKS or (firsts is None and n_blocks > 1)
     if has_sums:
-        device.dispatch(BLOCK_SUMS, (n_blocks - 1) * 256, bits, **resources)
-    device.dispatch(SCAN, n_blocks * 256, {**bits, "HAS_SUMS": has_sums}, **resources, Total=total,
+        device.dispatch(BLOCK_SUMS, (n_blocks - 1) * 256, **resources)
+    device.dispatch(SCAN, n_blocks * 256, **resources, Total=total, u_has_sums=has_sums,
                     Firsts=values if firsts is None else firsts)
     return int(np.frombuffer(total.read(4), "u4")[0])

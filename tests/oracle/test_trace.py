@@ -150,8 +150,8 @@ def test_rays_leave_the_surface_that_they_start_from(device):
     prelude = """
     bool meets_itself(uint triangle, vec2 bary, vec3 d)
     {
-        Surface s = surface_at(0u, triangle, bary, d, false);
-        return trace_any(offset_origin(s.position, s.normal_geometric, d), d, 1e30, 0u);
+        Surface s = seen_at(0u, triangle, bary, d).surface;
+        return meets_any(offset_origin(s.position, s.normal_geometric, d), d, 1e30, 0u);
     }
     """
     for size, shift in ((1e-2, 0.0), (1.0, 0.0), (1e4, 0.0), (1.0, 50.0)):
@@ -182,7 +182,7 @@ def test_alpha_lets_its_share_through(device):
     seeds = np.arange(n, dtype="u4")
     with traced(device, cut_out(alpha)) as rays:
         words = rays.call("uvec4", "closest(o, d, 1e30, seed)", o=o, d=d, seed=seeds)
-        blocked = rays.call("bool", "trace_any(o, d, 2.0, seed)", o=o, d=d, seed=seeds) != 0
+        blocked = rays.call("bool", "meets_any(o, d, 2.0, seed)", o=o, d=d, seed=seeds) != 0
     t = words[:, 0].copy().view("f4")
     assert (words[:, 1] != 0xFFFFFFFF).all()
     assert abs((t < 2).mean() - alpha) < 4 * np.sqrt(alpha * (1 - alpha) / n)

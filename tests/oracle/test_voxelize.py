@@ -43,7 +43,7 @@ def as_set(cells: np.ndarray) -> set[tuple[int, ...]]:
 def voxels_of(device, scene, n: int = N) -> Found:
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        voxels = voxelize(device, gpu_scene, n)
+        voxels = voxelize(device, *gpu_scene.matter, n)
         with voxels.scope:
             size = layouts.dtype(layouts.VOXEL).itemsize * voxels.n_voxels
             rows = np.frombuffer(voxels.voxels.read(size), layouts.dtype(layouts.VOXEL))
@@ -266,6 +266,6 @@ def test_every_resolution(device, n):
 
 def test_a_scene_without_triangles_has_no_voxels(device):
     gpu_scene = upload(device, scenes.scene())
-    with gpu_scene.scope, voxelize(device, gpu_scene, N).scope:
+    with gpu_scene.scope, voxelize(device, *gpu_scene.matter, N).scope:
         pass
-    assert voxelize(device, gpu_scene, N).n_voxels == 0
+    assert voxelize(device, *gpu_scene.matter, N).n_voxels == 0

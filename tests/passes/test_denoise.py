@@ -11,7 +11,7 @@ import pytest
 from svo_engine.passes.denoise import read_picture
 from svo_engine.passes.denoise.atrous import STEPS
 from svo_engine.passes.denoise.choice import make_denoiser
-from svo_engine.passes.raster import GBuffer, make_targets
+from svo_engine.passes.raster import Eye
 from svo_engine.passes.resolve import PLANES as FILM_PLANES
 from svo_engine.passes.resolve import make_film
 from svo_engine.scene.types import World
@@ -84,12 +84,12 @@ def picture(device, seen: Wall, is_filtered: bool = True, plane: str = "DIFFUSE_
     size = seen.samples.shape[2], seen.samples.shape[1]
     view = scenes.view(scenes.scene(camera=above(2.0 * size[0] / SIDE, size=size)))
     world_from_clip = view.world_from_view @ np.linalg.inv(view.clip_from_view)
-    targets, denoiser = make_targets(device, size), make_denoiser(device, size, "atrous" if is_filtered else "")
-    with device.scope() as scope, targets.scope, denoiser.scope:
+    denoiser = make_denoiser(device, size, "atrous" if is_filtered else "")
+    with device.scope() as scope, denoiser.scope:
         film = make_film(scope, view, FILM_PLANES, np.zeros(3))
-        film.sums.write(film_planes(seen, plane).tobytes())
-        film.n_samples, film.gbuffer = len(seen.samples), GBuffer(targets, world_from_clip)
-        pixels = read_picture(device, film, denoiser).planes["Combined"]
+        film.sums.write(film_planes(seen, plane))
+        film.n_samples, film.eye = len(seen.samples), Eye(size, world_from_clip, film.tiles, 0, True)
+        pixels = read_picture(device, film, denoiser, []).planes["Combined"]
     assert np.array_equal(pixels[..., 3], np.ones(size[::-1]))
     assert np.allclose(pixels[..., :3], pixels[..., :1], rtol=1e-5)
     return pixels[..., 0].astype("f8")

@@ -34,7 +34,7 @@ def test_a_fresh_session_and_a_fresh_scene_give_the_same_bits(session):
 
 def test_other_slices_give_the_same_bits(session, monkeypatch):
     first = picture_of(session, scenes.rich(), samples=1)
-    device = session._opened()[0].call(lambda device: device)
+    device = session.opened().thread.call(lambda device: device)
     monkeypatch.setattr(device_module, "FIRST_SLICE", 512)
     monkeypatch.setattr(device_module, "SLICE_SECONDS", 1e-9)
     monkeypatch.setattr(device, "_per_second", {})
@@ -147,13 +147,13 @@ def test_counts(session):
 
 
 def test_dark_scenes_gather_no_indirect_light(session, monkeypatch):
-    """Nothing sends out light: the variant without cones is compiled, and the picture is black."""
-    device, seen = session._opened()[0].call(lambda device: device), []
+    """Nothing sends out light: the cones are told so, and the picture is black."""
+    device, seen = session.opened().thread.call(lambda device: device), []
     dispatch = device.dispatch
 
     def spy(pass_, n, constants=None, **resources):
         if pass_.name == GATHER:
-            seen.append(constants["HAS_INDIRECT"])
+            seen.append(resources["u_has_light"])
         dispatch(pass_, n, constants, **resources)
 
     monkeypatch.setattr(device, "dispatch", spy)

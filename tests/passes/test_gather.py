@@ -26,8 +26,8 @@ def cones(device, scene, p, d, tan_half=0.1, t_max=1e9, **settings) -> np.ndarra
     chosen = replace(scenes.SMALL, **settings)
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        voxels = voxelize(device, gpu_scene, N)
-        lit = light(device, gpu_scene, voxels, injection_of(chosen, gpu_scene, scenes.view(scene)))
+        voxels = voxelize(device, *gpu_scene.matter, N)
+        lit = light(device, gpu_scene.lamps, voxels, injection_of(chosen, gpu_scene.lamps, scenes.view(scene)))
         with voxels.scope, lit.scope:
             uniforms = {**voxels.grid.uniforms(), "u_cone_offset": chosen.cone_offset, "u_cone_step": chosen.cone_step,
                         "u_cone_distance": 2.0 * N}

@@ -29,10 +29,10 @@ def lit_voxels(device, scene, level: int = 0, **settings) -> tuple[np.ndarray, n
     scene = replace(scene, camera=Camera("Camera", scenes.look(EYE), (8, 8)))
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        voxels = voxelize(device, gpu_scene, N)
+        voxels = voxelize(device, *gpu_scene.matter, N)
         with voxels.scope:
-            injection = injection_of(replace(scenes.SMALL, **settings), gpu_scene, scenes.view(scene))
-            lit = light(device, gpu_scene, voxels, injection)
+            injection = injection_of(replace(scenes.SMALL, **settings), gpu_scene.lamps, scenes.view(scene))
+            lit = light(device, gpu_scene.lamps, voxels, injection)
             with lit.scope:
                 if level == 0:
                     size = layouts.dtype(layouts.VOXEL).itemsize * voxels.n_voxels

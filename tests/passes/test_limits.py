@@ -14,7 +14,7 @@ SETTINGS = {"method": "rays", "samples": 1, "cache_rays": 1, "bounces": 1, "cach
 
 
 def limited(session, monkeypatch, n_bytes):
-    device = session._opened()[0].call(lambda device: device)
+    device = session.opened().thread.call(lambda device: device)
     monkeypatch.setattr(device, "limits", {**device.limits, LIMIT: n_bytes})
 
 

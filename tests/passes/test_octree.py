@@ -124,12 +124,12 @@ def lookups(device, scene, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What find_surfel says of cells (k, 3) i4, (k, 3) u4 for the three axes, and the keys of all surfels."""
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        octree = build_octree(device, gpu_scene, N)
+        octree = build_octree(device, *gpu_scene.matter, N)
         with octree.scope:
-            resources = octree.resources()
+            uniforms = {**octree.resources()}
+            buffers = {"Octree": uniforms.pop("Octree")}
             found = evaluate(device, "uvec3", "uvec3(find_surfel(c, 0), find_surfel(c, 1), find_surfel(c, 2))",
-                             ("bind/octree.glsl",), buffers={"Octree": resources.pop("Octree")}, uniforms=resources,
-                             c=cells)
+                             ("bind/octree.glsl",), buffers=buffers, uniforms=uniforms, c=cells)
             rows = np.frombuffer(octree.surfels.read(SURFEL.itemsize * octree.n_surfels), SURFEL)
             return found, Surfels(rows, octree.grid, gpu_scene.centre_ws, octree.n_nodes, 0).keys
 
@@ -203,7 +203,7 @@ def test_a_surfel_to_which_nothing_was_added_is_black(device):
     grid = make_grid(2.0, N)
     with device.scope() as scope:
         surfels = scope.buffer("surfels", SURFEL.itemsize)
-        device.dispatch(AVERAGE, 1, {"SUMS": 13}, Sums=scope.buffer("sums", 4 * 13, clear=True), Surfels=surfels,
+        device.dispatch(AVERAGE, 1, u_n_sums=13, Sums=scope.buffer("sums", 4 * 13, clear=True), Surfels=surfels,
                         **grid.uniforms(), u_emission_unit=0.0)
         row = np.frombuffer(surfels.read(), SURFEL)
     assert np.allclose(unpack_units(row["normal"]), (0, 0, 1))
@@ -268,7 +268,7 @@ def test_how_far_out_the_faces_of_a_board_lie(device, tilt):
 def bits_of(device, scene, n=N) -> tuple[bytes, bytes]:
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        octree = build_octree(device, gpu_scene, n)
+        octree = build_octree(device, *gpu_scene.matter, n)
         with octree.scope:
             return octree.words.read(), octree.surfels.read()
 
@@ -316,7 +316,7 @@ def test_surfels_that_do_not_fit_are_an_error_that_names_them(device, monkeypatc
     monkeypatch.setattr(device, "limits", {**device.limits, "GL_MAX_SHADER_STORAGE_BLOCK_SIZE": 100_000})
     gpu_scene = upload(device, scenes.cornell())
     with gpu_scene.scope, pytest.raises(GpuError, match=r"'surfel sums' .*MiB"):
-        build_octree(device, gpu_scene, N)
+        build_octree(device, *gpu_scene.matter, N)
 
 
 def test_the_frame_counts_nodes_and_surfels(session):

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from svo_engine.errors import SvoError
+from svo_engine.needs import needs_of
 from svo_engine.passes.denoise.choice import wanted
 from svo_engine.passes.planes import SOURCES, planes_for
 from svo_engine.passes.resolve import PLANES
-from svo_engine.passes.upload import upload
 from svo_engine.scene.types import Material, World
 from svo_engine.settings import PASSES, RenderSettings, with_text
 from tests import scenes
@@ -155,13 +155,12 @@ def test_denoising_albedo_and_depth(film):
     assert not depth[~inside].all()
 
 
-def test_only_the_planes_that_are_needed_exist(device):
+def test_only_the_planes_that_are_needed_exist():
     """Nobody who did not ask pays memory or time."""
 
     def planes(scene, **settings):
         settings = RenderSettings(**settings)
-        with upload(device, scene).scope:
-            return planes_for(upload(device, scene), settings, wanted(settings))
+        return planes_for(needs_of(scene, settings), settings, wanted(settings))
 
     diffuse = scenes.cornell()
     assert planes(diffuse, denoise=False) == ("COMBINED",)

@@ -11,8 +11,12 @@ import pytest
 
 from svo_engine.passes import raster as raster_module
 from svo_engine.passes.bvh import build_bvh, build_meshes
-from svo_engine.passes.raster import make_targets, raster
+from svo_engine.passes.parts import Part, make_parts
+from svo_engine.passes.raster import look, make_targets, raster
+from svo_engine.passes.resolve import make_film
+from svo_engine.passes.tracer import make_rest, tracer_of
 from svo_engine.passes.upload import upload
+from svo_engine.scene import layouts
 from svo_engine.scene.camera import make_view
 from svo_engine.scene.types import Camera, Image, Material, Texture
 from svo_engine.settings import RenderSettings
@@ -152,8 +156,8 @@ def test_every_sample_moves_the_pixels_by_less_than_the_filter(session):
 
 
 def pixels_of(scene, view, order: np.ndarray, first_triangle: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """Where on the picture the points of a G-buffer (k, 4) lie, (k, 2) pixels."""
-    placed = order[seen[:, 0] - 1]
+    """Where on the picture the points that hits (k, 4) are on lie, (k, 2) pixels."""
+    placed = order[seen[:, 0]]
     mesh = scene.instances.mesh[placed]
     triangle = seen[:, 1] - first_triangle[mesh]
     corners = np.array([scene.meshes[m].positions[scene.meshes[m].triangles[t]]
@@ -181,15 +185,21 @@ def test_rays_see_what_the_rasteriser_sees(device, monkeypatch, camera):
             return result
 
         gpu_scene, targets = keep(upload(device, scene)), keep(make_targets(device, view.size))
-        bvh = keep(build_bvh(device, gpu_scene, keep(build_meshes(device, scene.meshes))))
-        seen = []
-        for trees in (None, bvh):
-            raster(device, gpu_scene, view, targets, RenderSettings(), 3, bvh=trees)
-            seen.append(np.frombuffer(targets.visibility.read(), "u4").reshape(-1, 4))
+        bvh = keep(build_bvh(device, gpu_scene.placing, keep(build_meshes(device, scene.meshes))))
+        rays = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
+        parts = keep(make_parts(device, view.size, 0, 0, gpu_scene.needs))
+        film = make_film(made.enter_context(device.scope()), view, ("COMBINED",), gpu_scene.centre_ws)
+        settings, whole, seen = RenderSettings(), Part(0, parts.n_slots), []
+        for tracer in (None, rays):
+            eye = look(device, gpu_scene, view, targets, settings, 3, film.tiles, tracer)
+            assert eye.is_drawn == (tracer is None)
+            raster(device, gpu_scene, eye, targets, tracer, settings, parts, whole)
+            seen.append(np.frombuffer(parts.wave.read(16 * whole.n), "u4").reshape(-1, 4))
     same = (seen[0][:, :2] == seen[1][:, :2]).all(1)
+    is_hit = seen[0][:, 0] != layouts.CONSTANTS["BVH_NONE"]
     assert same.mean() > 0.99
-    assert (seen[0][:, 0] > 0).mean() > 0.1
-    is_seen = same & (seen[0][:, 0] > 0)
+    assert is_hit.mean() > 0.1
+    is_seen = same & is_hit
     order, first = gpu_scene.placing.order, gpu_scene.placing.shapes.first_triangle
     places = [pixels_of(scene, view, order, first, part[is_seen]) for part in seen]
     assert np.abs(places[0] - places[1]).max() < 1 / 256  # to which the rasteriser rounds corners, up or down

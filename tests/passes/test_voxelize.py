@@ -32,7 +32,7 @@ def bits_of(device, scene, n=32) -> tuple[bytes, ...]:
     """Occupancy, and every field of the voxels; between the fields memory holds whatever it held before."""
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        voxels = voxelize(device, gpu_scene, n)
+        voxels = voxelize(device, *gpu_scene.matter, n)
         with voxels.scope:
             size = layouts.dtype(layouts.VOXEL).itemsize * voxels.n_voxels
             rows = np.frombuffer(voxels.voxels.read(size), layouts.dtype(layouts.VOXEL))
@@ -61,7 +61,7 @@ def test_long_thin_bounds_take_no_more_memory_than_others(device):
     """1000 to 1: the grid is a cube, and what the scene does not fill costs a bit a voxel."""
     needle = scenes.Thing(scenes.box("Needle", (-500, -0.5, 0), (500, 0.5, 1)))
     gpu_scene = upload(device, scenes.scene(needle))
-    with gpu_scene.scope, voxelize(device, gpu_scene, 64).scope as scope:
+    with gpu_scene.scope, voxelize(device, *gpu_scene.matter, 64).scope as scope:
         assert scope.n_bytes < 64**3 // 8 + 40 * 64 * 8
 
 
@@ -69,7 +69,7 @@ def test_voxels_that_do_not_fit_are_an_error_that_names_them(device, monkeypatch
     monkeypatch.setattr(device, "limits", {**device.limits, "GL_MAX_SHADER_STORAGE_BLOCK_SIZE": 30_000})
     gpu_scene = upload(device, scenes.cornell())
     with gpu_scene.scope, pytest.raises(GpuError, match=r"'voxel sums' .*MiB"):
-        voxelize(device, gpu_scene, 32)
+        voxelize(device, *gpu_scene.matter, 32)
 
 
 def test_objects_share_one_mesh(device):
@@ -78,6 +78,6 @@ def test_objects_share_one_mesh(device):
     places = tuple(scenes.moved(*p) for p in np.random.default_rng(1).uniform(-5, 5, (1000, 3)))
     one, many = (upload(device, scenes.scene(scenes.Thing(ball, places=p))) for p in (places[:1], places))
     with one.scope, many.scope:
-        assert len(many.draws) == 1
+        assert len(many.placing.draws) == 1
         assert many.scope.n_bytes - one.scope.n_bytes <= 999 * (64 + 4)
-        assert many.n_work == 1000 * one.n_work
+        assert many.placing.n_work == 1000 * one.placing.n_work

@@ -32,7 +32,7 @@ def test_work_that_is_cut_otherwise_gives_the_same_bits(session, monkeypatch):
     assert np.isfinite(first).all() and first.min() >= 0
     monkeypatch.setattr(device_module, "FIRST_SLICE", 512)
     monkeypatch.setattr(device_module, "SLICE_SECONDS", 1e-9)
-    monkeypatch.setattr(session._opened()[0].call(lambda device: device), "_per_second", {})
+    monkeypatch.setattr(session.opened().thread.call(lambda device: device), "_per_second", {})
     session.forget()
     assert np.array_equal(first, shot(session, scenes.rich(), samples=2))
 

@@ -129,7 +129,7 @@ def test_textures_multiply_the_materials_values(device):
     uv = np.full((1, 2), 0.5, "f4")
 
     def shading(kind, field):
-        return on_device(device, kind, f"shading_at(0u, uv, true).{field}", scene, uv=uv)[0]
+        return on_device(device, kind, f"shading_at(materials[0], uv).{field}", scene, uv=uv)[0]
 
     assert np.allclose(shading("vec3", "base_color"), np.array([0.5, 0.6, 0.7]) * 0.1)
     assert np.allclose(shading("vec3", "emission"), np.array([1, 2, 3]) * 0.4)
@@ -148,7 +148,7 @@ def test_a_normal_map_is_in_tangent_space(device, strength, map_, expected):
     material = Material("M", normal_strength=strength, normal_texture=0)
     image = Image("Map", np.array([[[*map_, 1]]], "f4"))
     scene = Scene(images=(image,), textures=(Texture(0),), materials=(material,))
-    call = "mapped_normal(0u, uv, vec3(0, 0, 1), vec3(3, 0, 1), vec3(0, -2, 0), true)"
+    call = "mapped_normal(materials[0], uv, vec3(0, 0, 1), vec3(3, 0, 1), vec3(0, -2, 0))"
     found = on_device(device, "vec3", call, scene, uv=np.zeros((1, 2), "f4"))
     assert np.allclose(found, [expected], atol=1e-6)
 
@@ -160,7 +160,7 @@ def directions(n: int = 500) -> np.ndarray:
 
 def world_of(device, world: World, image: Image | None, tan_half_angle: float, d: np.ndarray) -> np.ndarray:
     gpu_scene = upload(device, Scene(world=world, images=(image,) if image else ()))
-    uniforms = gpu_scene.world()
+    uniforms = {**gpu_scene.world()}
     with gpu_scene.scope:
         return evaluate(device, "vec3", f"world_radiance(d, {tan_half_angle})", ("bind/environment.glsl",), d=d,
                         textures={"u_env": uniforms.pop("u_env")}, uniforms=uniforms)

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from ...errors import GpuError
+from ...gpu.buffer import Buffer
 from ...gpu.device import Device
 from ...gpu.oidn import IMAGES, Oidn, OidnDevice
 from ...gpu.scope import GpuScope
+from ...gpu.texture import Texture
 from ...settings import RenderSettings
 
 
@@ -24,10 +25,10 @@ class Denoiser:
     """
 
     scope: GpuScope
-    picture: Any
-    pair: tuple[Any, Any]
-    staging: Any
-    images: tuple[Any, ...]
+    picture: Texture
+    pair: tuple[Texture, Texture]
+    staging: Buffer
+    images: tuple[Buffer, ...]
     name: str
     oidn: Oidn | None
     limits: tuple[str, ...]
@@ -44,7 +45,7 @@ def make_denoiser(device: Device, size: tuple[int, int], asked: str, quality: st
     scope = device.scope()
     picture, *pair = (scope.texture(name, size, 4, "f4") for name in ("picture", "light", "spare"))
     staging = scope.pixels("staging", size, for_host=True)
-    oidn, images, limits = None, tuple[Any, ...](), list[str]()
+    oidn, images, limits = None, tuple[Buffer, ...](), list[str]()
     try:
         if runs_on := _runs_on(device, asked):
             images = tuple(scope.pixels(label, size) for label in IMAGES)

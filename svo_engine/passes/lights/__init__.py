@@ -8,66 +8,75 @@ so are emissive triangles. Suns are everywhere equally near, so each is drawn by
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ...gpu.buffer import Buffer
 from ...gpu.device import Device
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
+from ...gpu.texels import Texels
+from ...needs import Needs
 from ...scene.types import Light
-from ..upload import GpuScene, light_rows
+from ..upload.lamps import Lamps, light_rows
 from .glow import Glow
 from .tree import light_tree
 
 FEW = 8  # lamps up to which each is drawn by itself
 TREE_DRAWS = 4  # of many lamps, at what the eye sees; one at what rays meet
 
-LIGHTS = ("Lights",)
-LIGHT_TEXTURES = ("u_light_nodes", "u_emitters", "u_sky")
-LIGHT_UNIFORMS = ("u_lamp_tree", "u_emitter_tree", "u_n_emitters", "u_sky_size", "u_world_from_env")
 
 
 @dataclass(frozen=True, eq=False)
 class Lights:
-    """bound: what the shaders read, by name. The counts say how many lamps there are to draw from."""
+    """lamps: the buffer of all lamps that shine; nodes: of their tree, which has n_leaves.
+
+    n_own, n_in_tree  lamps that are drawn each by itself, and from the tree
+    """
 
     scope: GpuScope
-    bound: dict[str, Any]
+    lamps: Buffer
+    nodes: Texels
+    n_leaves: int
     n_own: int
     n_in_tree: int
     glow: Glow
 
-    def resources(self) -> dict[str, Any]:
-        """The buffers, textures and uniforms of bind/lights.glsl."""
-        return self.bound
+    def resources(self) -> Resources:
+        """What bind/lights.glsl reads."""
+        return {"Lights": self.lamps, "u_light_nodes": self.nodes, "u_lamp_tree": (0, self.n_leaves),
+                **self.draws(), **self.glow.sky()}
 
-    def constants(self) -> dict[str, bool | int | float]:
-        """What is not there is not compiled."""
-        return {"N_LIGHTS": self.n_own, "HAS_TREE": self.n_in_tree > 0, "N_TREE_DRAWS": TREE_DRAWS,
-                **self.glow.constants()}
+    def emitters(self) -> Resources:
+        """What bind/emitters.glsl reads."""
+        return {**self.draws(), **self.glow.emitters()}
+
+    def draws(self) -> dict[str, int]:
+        """The uniforms of bind/draws.glsl."""
+        return {"u_n_lamps": self.n_own, "u_n_tree_draws": TREE_DRAWS * (self.n_in_tree > 0), **self.glow.draws()}
+
+    def has_emitters(self, needs: Needs) -> bool:
+        """Whether points on emissive triangles are to be drawn."""
+        return self.glow.n_emitters > 0 or not needs.skips
 
     @property
     def n_draws(self) -> int:
         """Draws of each pixel and sample."""
-        return self.n_own + TREE_DRAWS * (self.n_in_tree > 0) + self.glow.n_draws
+        return sum(self.draws().values())
 
     def counts(self) -> dict[str, int]:
         """For the frame's statistics."""
         return {"lamps in tree": self.n_in_tree, "emitters": self.glow.n_emitters, "draws": self.n_draws}
 
 
-def make_lights(device: Device, gpu_scene: GpuScene, glow: Glow) -> Lights:
-    """The lamps of `gpu_scene` on the device, beside all that glows. GpuError names the buffer that does not fit."""
+def make_lights(device: Device, lamps: Lamps, glow: Glow) -> Lights:
+    """The lamps that shine, on the device, beside all that glows. GpuError names the buffer that does not fit."""
     scope = device.scope()
-    own, many = _split([light for light in gpu_scene.scene.lights if max(light.emitted) > 0])
-    tree = light_tree(*_boxes(many, gpu_scene.centre_ws), np.array([_intensity(light) for light in many]))
+    own, many = _split([light for light in lamps.lights if max(light.emitted) > 0])
+    tree = light_tree(*_boxes(many, lamps.centre_ws), np.array([_intensity(light) for light in many]))
     tree["light"] += len(own)
-    bound = {
-        **glow.bound,
-        "Lights": scope.buffer("drawn lamps", light_rows([*own, *many], gpu_scene.centre_ws)),
-        "u_light_nodes": scope.texels("light tree", np.concatenate([glow.tree, tree])),
-        "u_emitter_tree": (0, len(glow.tree) // 2), "u_lamp_tree": (len(glow.tree), len(tree) // 2)}
-    return Lights(scope, bound, len(own), len(many), glow)
+    return Lights(scope, scope.buffer("drawn lamps", light_rows([*own, *many], lamps.centre_ws)),
+                  scope.texels("lamp tree", tree), len(tree) // 2, len(own), len(many), glow)
 
 
 def _split(lamps: list[Light]) -> tuple[list[Light], list[Light]]:

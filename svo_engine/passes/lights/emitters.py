@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...scene.types import Material, Mesh, Scene
-from ..upload import GpuScene, linear_pixels
+from ...scene.types import Instances, Material, Mesh
+from ..upload.placing import Placing
+from ..upload.sky import linear_pixels
+from ..upload.surfaces import Surfaces
 
 MOST = 1 << 17  # triangles; what goes beyond is large enough to be found by rays alone
 EASY = 0.25  # of the area of all surfaces: rays find more than that often enough by themselves, with less noise
@@ -31,23 +33,23 @@ class Emitters:
     intensity: np.ndarray
 
 
-def emitters_of(gpu_scene: GpuScene) -> Emitters:
+def emitters_of(placing: Placing, surfaces: Surfaces) -> Emitters:
     """The emissive triangles that rays would not find: of materials that are not EASY, and of as many instances as MOST
     allows, those with the fewest triangles first.
     """
-    scene, inst = gpu_scene.scene, gpu_scene.scene.instances
-    radiance = np.array([_mean_radiance(scene, material) for material in scene.materials] or [0.0])
+    inst, meshes = placing.placed, placing.shapes.meshes
+    radiance = np.array([_mean_radiance(surfaces, material) for material in surfaces.rows] or [0.0])
     if radiance.any():
-        radiance[_area_shares(scene) > EASY] = 0.0
-    order, first_triangle = gpu_scene.placing.order, gpu_scene.placing.shapes.first_triangle
+        radiance[_area_shares(inst, meshes, len(radiance)) > EASY] = 0.0
+    order, first_triangle = placing.order, placing.shapes.first_triangle
     first_work = np.cumsum([0, *np.diff(first_triangle)[inst.mesh[order]]])
-    glowing = [(number, i) for number, i in enumerate(order) if radiance[_slots(scene, i)].any()]
-    found = {number: _radiances(scene, i, radiance) for number, i in _smallest(scene, glowing)}
+    glowing = [(number, i) for number, i in enumerate(order) if radiance[_slots(inst, i)].any()]
+    found = {number: _radiances(inst, meshes, i, radiance) for number, i in _smallest(inst, meshes, glowing)}
     parts = []
     for number, sent in sorted(found.items()):
         i = order[number]
-        mesh, m, own = scene.meshes[inst.mesh[i]], inst.world_from_object[i], np.flatnonzero(sent)
-        corners = _corners(mesh, m, own) - gpu_scene.centre_ws
+        mesh, m, own = meshes[inst.mesh[i]], inst.world_from_object[i], np.flatnonzero(sent)
+        corners = _corners(mesh, m, own) - placing.centre_ws
         area = _areas(corners)
         columns = (first_work[number] + own, np.full(len(own), number), first_triangle[inst.mesh[i]] + own,
                    corners.min(1), corners.max(1), sent[own] * area)
@@ -56,23 +58,24 @@ def emitters_of(gpu_scene: GpuScene) -> Emitters:
     return Emitters(*(np.concatenate(column) for column in zip(empty, *parts, strict=True)))
 
 
-def _mean_radiance(scene: Scene, material: Material) -> float:
+def _mean_radiance(surfaces: Surfaces, material: Material) -> float:
     """Mean over the colours and, if it has one, over the emission's image."""
     color = np.array(material.emission, "f8")
     if material.emission_texture >= 0:
-        color *= linear_pixels(scene.images[scene.textures[material.emission_texture].image])[..., :3].mean((0, 1))
+        image = surfaces.pictures[surfaces.textures[material.emission_texture].image]
+        color *= linear_pixels(image)[..., :3].mean((0, 1))
     return max(float(color.mean()) * material.alpha, 0.0)
 
 
-def _area_shares(scene: Scene) -> np.ndarray:
+def _area_shares(inst: Instances, meshes: tuple[Mesh, ...], n_materials: int) -> np.ndarray:
     """(n_materials,) f8: each material's part of the area of all surfaces, which is about the part of all rays that hit
     it. An instance's scale counts as if it were the same along all axes.
     """
-    areas = np.zeros(len(scene.materials))
-    of_slots = [np.bincount(mesh.material_slots, _areas(mesh.positions[mesh.triangles])) for mesh in scene.meshes]
-    scales = np.abs(np.linalg.det(scene.instances.world_from_object[:, :3, :3])) ** (2 / 3)
-    for i, mesh in enumerate(scene.instances.mesh):
-        slots = _slots(scene, i)
+    areas = np.zeros(n_materials)
+    of_slots = [np.bincount(mesh.material_slots, _areas(mesh.positions[mesh.triangles])) for mesh in meshes]
+    scales = np.abs(np.linalg.det(inst.world_from_object[:, :3, :3])) ** (2 / 3)
+    for i, mesh in enumerate(inst.mesh):
+        slots = _slots(inst, i)
         np.add.at(areas, slots[np.minimum(np.arange(len(of_slots[mesh])), len(slots) - 1)], scales[i] * of_slots[mesh])
     return areas / max(areas.sum(), 1e-30)
 
@@ -82,23 +85,21 @@ def _areas(corners: np.ndarray) -> np.ndarray:
     return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
 
 
-def _slots(scene: Scene, i: int) -> np.ndarray:
+def _slots(inst: Instances, i: int) -> np.ndarray:
     """Materials of instance i, one a slot."""
-    inst = scene.instances
     return inst.slot_materials[inst.first_slot[i]:inst.first_slot[i + 1]]
 
 
-def _smallest(scene: Scene, instances: list[tuple[int, int]]) -> list[tuple[int, int]]:
+def _smallest(inst: Instances, meshes: tuple[Mesh, ...], instances: list[tuple[int, int]]) -> list[tuple[int, int]]:
     """As many of the instances, (number on the device, index), as have MOST triangles together."""
-    sizes = np.array([len(scene.meshes[scene.instances.mesh[i]].triangles) for _, i in instances], "i8")
+    sizes = np.array([len(meshes[inst.mesh[i]].triangles) for _, i in instances], "i8")
     order = np.argsort(sizes, kind="stable")
     return [instances[k] for k in order[np.cumsum(sizes[order]) <= MOST]]
 
 
-def _radiances(scene: Scene, i: int, radiance: np.ndarray) -> np.ndarray:
+def _radiances(inst: Instances, meshes: tuple[Mesh, ...], i: int, radiance: np.ndarray) -> np.ndarray:
     """What each triangle of instance i sends out; the last slot stands for those that do not exist."""
-    slots = _slots(scene, i)
-    mesh = scene.meshes[scene.instances.mesh[i]]
+    slots, mesh = _slots(inst, i), meshes[inst.mesh[i]]
     return radiance[slots[np.minimum(mesh.material_slots, len(slots) - 1)]]
 
 

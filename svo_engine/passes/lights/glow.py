@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ...gpu.device import Device
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
+from ...gpu.texels import Texels
 from ...scene import layouts
-from ..upload import GpuScene
+from ...scene.types import World
+from ..upload.placing import Placing
+from ..upload.sky import Sky
+from ..upload.surfaces import Surfaces
 from .emitters import emitters_of
 from .sky import sky_table
 from .tree import leaf_of_light, light_tree
@@ -21,37 +25,47 @@ EMITTER_DRAWS = 2
 
 @dataclass(frozen=True, eq=False)
 class Glow:
-    """Emissive triangles and the world's image. tree: LIGHT_NODE rows; bound: what the shaders read, by name."""
+    """Emissive triangles and the world's image.
+
+    triangles       texels of layout EMITTER; nodes: of their tree, which has n_leaves
+    table           texels of what `sky_table` gives, of sky_size (columns, rows)
+    world_from_env  (3, 3) f8
+    """
 
     scope: GpuScope
-    tree: np.ndarray
-    bound: dict[str, Any]
+    triangles: Texels
+    nodes: Texels
+    n_leaves: int
     n_emitters: int
-    has_sky: bool
+    table: Texels
+    sky_size: tuple[int, int]
+    world_from_env: np.ndarray
 
-    @property
-    def n_draws(self) -> int:
-        """Draws of each pixel and sample."""
-        return EMITTER_DRAWS * (self.n_emitters > 0) + self.has_sky
+    def draws(self) -> dict[str, int]:
+        """Their part of the uniforms of bind/draws.glsl."""
+        return {"u_n_emitter_draws": EMITTER_DRAWS * (self.n_emitters > 0), "u_n_sky_draws": int(self.sky_size[0] > 0)}
 
-    def constants(self) -> dict[str, bool | int | float]:
-        """What is not there is not compiled."""
-        return {"HAS_EMITTERS": self.n_emitters > 0, "HAS_WORLD_DRAWS": self.has_sky, "N_EMITTER_DRAWS": EMITTER_DRAWS}
+    def emitters(self) -> Resources:
+        """What bind/emitters.glsl reads beside the numbers of draws."""
+        return {"u_emitters": self.triangles, "u_n_emitters": self.n_emitters, "u_light_nodes": self.nodes,
+                "u_emitter_tree": (0, self.n_leaves)}
+
+    def sky(self) -> Resources:
+        """What bind/sky.glsl reads beside the image."""
+        return {"u_sky": self.table, "u_sky_size": self.sky_size, "u_world_from_env": self.world_from_env}
 
 
-def make_glow(device: Device, gpu_scene: GpuScene) -> Glow:
-    """What glows in `gpu_scene`, on the device. GpuError names the buffer that does not fit."""
-    scope, emitters, sky = device.scope(), emitters_of(gpu_scene), sky_table(gpu_scene.scene)
+def make_glow(device: Device, placing: Placing, surfaces: Surfaces, sky: Sky, world: World) -> Glow:
+    """What glows, on the device. GpuError names the buffer that does not fit."""
+    scope, emitters, table = device.scope(), emitters_of(placing, surfaces), sky_table(sky.image, world)
     tree = light_tree(emitters.low, emitters.high, emitters.intensity)
     rows = np.zeros(len(emitters.work), layouts.dtype(layouts.EMITTER))
     rows["work"], rows["instance"], rows["triangle"] = emitters.work, emitters.instance, emitters.triangle
     rows["leaf"] = leaf_of_light(tree)
-    bound = {
-        "u_emitters": scope.texels("emitters", rows), "u_n_emitters": len(rows),
-        "u_sky": scope.texels("sky table", _whole_texels(sky)),
-        "u_sky_size": (0, 0) if sky is None else (sky.shape[1] - 1, sky.shape[0]),
-        "u_world_from_env": np.eye(3) if sky is None else np.linalg.inv(gpu_scene.scene.world.env_from_world)}
-    return Glow(scope, tree, bound, len(rows), sky is not None)
+    return Glow(scope, scope.texels("emitters", rows), scope.texels("emitter tree", tree), len(tree) // 2, len(rows),
+                scope.texels("sky table", _whole_texels(table)),
+                (0, 0) if table is None else (table.shape[1] - 1, table.shape[0]),
+                np.eye(3) if table is None else np.linalg.inv(world.env_from_world))
 
 
 def _whole_texels(table: np.ndarray | None) -> np.ndarray:

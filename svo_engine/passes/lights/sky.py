@@ -5,24 +5,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...scene.types import Scene
-from ..upload import linear_pixels
+from ...scene.types import Image, World
+from ..upload.sky import linear_pixels
 
 LARGEST = 4096, 2048  # texels of the table: 32 MiB
 EVEN = 0.25  # of the squared mean: a variance of radiance below which rays do as well without draws
 
 
-def sky_table(scene: Scene) -> np.ndarray | None:
+def sky_table(image: Image | None, world: World) -> np.ndarray | None:
     """Cumulative probabilities (height, width + 1) f4: in column 0 of the rows, in the others of a row's texels.
 
     Proportional to the radiance that bilinear interpolation makes of each texel, times its solid angle. None where
     there is nothing to choose: no image, a black or an even one, or a mapping that has no inverse.
     """
-    world = scene.world
-    if world.image < 0 or abs(np.linalg.det(world.env_from_world)) < 1e-12:
+    if image is None or abs(np.linalg.det(world.env_from_world)) < 1e-12:
         return None
     weights = np.array(world.radiance, "f4") / 3
-    light = _reduced(np.maximum(linear_pixels(scene.images[world.image])[..., :3] @ weights, 0))
+    light = _reduced(np.maximum(linear_pixels(image)[..., :3] @ weights, 0))
     light = _interpolated(light.astype("f8"))
     latitude = np.pi * ((np.arange(len(light)) + 0.5) / len(light) - 0.5)
     share = np.broadcast_to(np.cos(latitude)[:, None], light.shape)

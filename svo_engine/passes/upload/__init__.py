@@ -13,16 +13,20 @@ from typing import Any
 import numpy as np
 
 from ...gpu.device import Device
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
+from ...needs import Needs, needs_of
 from ...scene.types import Scene
+from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
+from .cutouts import Cutouts, mark_cutouts, opacity_of
 from .lamps import Lamps, light_rows, upload_lamps
 from .placing import Draw, Placing, place
 from .shapes import pack_units, upload_shapes
-from .sky import Sky, linear_pixels, upload_sky
-from .surfaces import Surfaces, has_specular, has_textures, upload_surfaces
+from .sky import Sky, linear_pixels, upload_sky, world_uniforms
+from .surfaces import Surfaces, upload_surfaces
 
-__all__ = ["GpuScene", "assemble", "light_rows", "linear_pixels", "pack_units", "upload"]
+__all__ = ["Draw", "GpuScene", "assemble", "light_rows", "linear_pixels", "pack_units", "upload", "world_uniforms"]
 
 Make = Callable[..., Any]
 
@@ -33,112 +37,64 @@ class GpuScene:
 
     scope: GpuScope
     scene: Scene
+    needs: Needs
     placing: Placing
     surfaces: Surfaces
+    cutouts: Cutouts
     lamps: Lamps
     sky: Sky
     table: Albedo
 
     @property
-    def geometry(self) -> dict[str, Any]:
-        """The buffers of bind/geometry.glsl."""
+    def matter(self) -> tuple[Placing, Surfaces, Albedo]:
+        """All that a voxel can hold: where surfaces are and what they look like."""
+        return self.placing, self.surfaces, self.table
+
+    @property
+    def opacity(self) -> Resources:
+        """What bind/opacity.glsl reads: all that rays know of materials."""
+        return opacity_of(self.placing, self.surfaces, self.cutouts)
+
+    @property
+    def geometry(self) -> Resources:
+        """What bind/geometry.glsl reads."""
         return self.placing.geometry
 
     @property
-    def materials(self) -> dict[str, Any]:
-        """The buffers of bind/materials.glsl."""
-        return self.surfaces.buffers
-
-    @property
-    def lights(self) -> Any:
-        """The buffer of all lamps."""
-        return self.lamps.rows
-
-    @property
-    def albedo(self) -> Any:
-        """The texture of bind/albedo.glsl."""
-        return self.table.table
+    def materials(self) -> Resources:
+        """What bind/materials.glsl reads."""
+        return self.surfaces.materials
 
     @property
     def centre_ws(self) -> np.ndarray:
         """(3,) f8, metres: what positions on the device are relative to."""
         return self.placing.centre_ws
 
-    @property
-    def extent(self) -> float:
-        """Metres, the longest side of the box around everything."""
-        return self.placing.extent
-
-    @property
-    def draws(self) -> tuple[Draw, ...]:
-        """What the rasteriser draws."""
-        return self.placing.draws
-
-    @property
-    def n_work(self) -> int:
-        """Triangles with instances counted as often as placed."""
-        return self.placing.n_work
-
-    @property
-    def n_instances(self) -> int:
-        """Placed meshes."""
-        return sum(draw.n_instances for draw in self.draws)
-
-    @property
-    def has_textures(self) -> bool:
-        """Whether any material reads an image."""
-        return self.surfaces.has_textures
-
-    @property
-    def has_alpha(self) -> bool:
-        """Whether any material lets rays through."""
-        return self.surfaces.has_alpha
-
-    @property
-    def has_specular(self) -> bool:
-        """Whether any material does more than send out and reflect light diffusely."""
-        return self.surfaces.has_specular
-
-    @property
-    def emission_unit(self) -> float:
-        """The highest radiance that any material sends out."""
-        return self.surfaces.emission_unit
-
-    @property
-    def has_light(self) -> bool:
-        """Whether anything in the scene sends out light at all, the world included."""
-        return bool(self.scene.lights) or self.emission_unit > 0 or max(self.scene.world.radiance) > 0
-
-    def surface_constants(self) -> dict[str, bool]:
-        """What bind/principled.glsl can leave out, and textures."""
-        return {"HAS_TEXTURES": self.has_textures, "HAS_SPECULAR": self.has_specular,
-                "HAS_GLASS": self.surfaces.has_glass}
-
-    def world(self) -> dict[str, Any]:
-        """The uniforms of bind/environment.glsl."""
-        world = self.scene.world
-        return {"u_env": self.sky.texture, "u_world_radiance": world.radiance,
-                "u_env_from_world": world.env_from_world, "u_has_env": world.image >= 0}
+    def world(self) -> Resources:
+        """What bind/environment.glsl reads."""
+        return world_uniforms(self.sky, self.scene.world)
 
 
 def upload(device: Device, scene: Scene) -> GpuScene:
     """Copy `scene` to the device, all of it into one scope. GpuError names the buffer that does not fit."""
     scope = device.scope()
 
-    def make(_name: str, part: Make, *inputs: Any) -> Any:
+    def make(_name: str, part: Make, *inputs: Any, n_kept: int = 1) -> Any:  # noqa: ARG001 - all is kept
         made = part(device, *inputs)
         scope.adopt(made.scope)
         return made
 
-    return assemble(scope, scene, make)
+    return assemble(scope, scene, needs_of(scene, RenderSettings()), make)
 
 
-def assemble(scope: GpuScope, scene: Scene, make: Make) -> GpuScene:
-    """The scene from parts: `make(name, function, *inputs)` gives function(device, *inputs), or the part it kept."""
-    shapes = make("shapes", upload_shapes, scene.meshes, has_textures(scene.materials))
+def assemble(scope: GpuScope, scene: Scene, needs: Needs, make: Make) -> GpuScene:
+    """The scene from parts: `make(name, function, *inputs, n_kept)` gives function(device, *inputs), or a kept one."""
+    scene = scene.plain
+    shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
     placing = make("placing", place, shapes, scene.instances)
+    surfaces = make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     return GpuScene(
-        scope, scene, placing, make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images),
+        scope, scene, needs, placing, surfaces, make("cutouts", mark_cutouts, placing, surfaces, needs.skips),
         make("lamps", upload_lamps, scene.lights, placing.centre_ws), make("sky", upload_sky, world),
-        make("albedo", albedo, has_specular(scene.materials)))
+        make("albedo", albedo, needs.principled, n_kept=2))

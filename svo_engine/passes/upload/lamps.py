@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ...gpu.buffer import Buffer
 from ...gpu.device import Device
 from ...gpu.scope import GpuScope
 from ...scene import layouts
@@ -17,16 +17,18 @@ from ...scene.types import Light
 
 @dataclass(frozen=True, eq=False)
 class Lamps:
-    """rows: a buffer of layout LIGHT, one for each lamp of the scene in its order."""
+    """lights: those of the scene; rows: a buffer of layout LIGHT, in their order; centre_ws as in `Placing`."""
 
     scope: GpuScope
-    rows: Any
+    lights: tuple[Light, ...]
+    rows: Buffer
+    centre_ws: np.ndarray
 
 
 def upload_lamps(device: Device, lights: tuple[Light, ...], centre: np.ndarray) -> Lamps:
     """Copy all lamps, positions relative to `centre`."""
     scope = device.scope()
-    return Lamps(scope, scope.buffer("lights", light_rows(lights, centre)))
+    return Lamps(scope, lights, scope.buffer("lights", light_rows(lights, centre)), centre)
 
 
 def light_rows(lights: Sequence[Light], centre: np.ndarray) -> np.ndarray:

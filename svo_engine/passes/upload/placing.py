@@ -4,16 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ...gpu.device import Device
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...scene import layouts
 from ...scene.bounds import bounds
 from ...scene.types import Instances
 from .shapes import Shapes
+
+_OF_INSTANCES = ("Instances", "Triangles", "CornerUvs", "SlotMaterials")
 
 
 @dataclass(frozen=True)
@@ -28,8 +30,10 @@ class Draw:
 
 @dataclass(frozen=True, eq=False)
 class Placing:
-    """geometry: the buffers of bind/geometry.glsl. n_work: triangles with instances counted as often as placed.
+    """geometry: the buffers of bind/geometry.glsl; instances: those of bind/instances.glsl among them.
 
+    placed     what was placed, in the scene's order
+    n_work     triangles with instances counted as often as placed
     centre_ws  (3,) f8, metres; subtracted from every position, so that f4 does far away
     extent     metres, the longest side of the box around everything
     order      (n_instances,) i8, the device's order: place i holds instance order[i], meshes one after another
@@ -37,12 +41,19 @@ class Placing:
 
     scope: GpuScope
     shapes: Shapes
-    geometry: dict[str, Any]
+    placed: Instances
+    geometry: Resources
+    instances: Resources
     draws: tuple[Draw, ...]
     n_work: int
     centre_ws: np.ndarray
     extent: float
     order: np.ndarray
+
+    @property
+    def n_instances(self) -> int:
+        """Placed meshes that have triangles."""
+        return sum(draw.n_instances for draw in self.draws)
 
 
 def place(device: Device, shapes: Shapes, instances: Instances) -> Placing:
@@ -64,8 +75,9 @@ def place(device: Device, shapes: Shapes, instances: Instances) -> Placing:
     found, firsts, counts = np.unique(mesh, return_index=True, return_counts=True)
     draws = tuple(Draw(int(f), int(c), int(shapes.first_triangle[m]), int(n_triangles[m]))
                   for m, f, c in zip(found, firsts, counts, strict=True) if n_triangles[m])
-    return Placing(scope, shapes, {**shapes.buffers, **buffers}, draws, int(work[-1]), centre,
-                   float((high - low).max()), order)
+    geometry = {**shapes.buffers, **buffers}
+    return Placing(scope, shapes, instances, geometry, {name: geometry[name] for name in _OF_INSTANCES}, draws,
+                   int(work[-1]), centre, float((high - low).max()), order)
 
 
 def _slots(instances: Instances, n_slots: np.ndarray, order: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

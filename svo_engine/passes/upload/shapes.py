@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ...gpu.device import Device
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...scene.bounds import mesh_boxes
 from ...scene.types import Mesh
@@ -16,7 +16,7 @@ from ...scene.types import Mesh
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """buffers: those of bind/geometry.glsl that know no instance.
+    """buffers: those of bind/geometry.glsl that know no instance; meshes: what they hold.
 
     first_triangle  (n_meshes + 1,) i8, ascending
     n_slots         (n_meshes,) i8, material slots that the triangles of each mesh name
@@ -24,7 +24,8 @@ class Shapes:
     """
 
     scope: GpuScope
-    buffers: dict[str, Any]
+    meshes: tuple[Mesh, ...]
+    buffers: Resources
     first_triangle: np.ndarray
     n_slots: np.ndarray
     boxes: np.ndarray
@@ -50,7 +51,7 @@ def upload_shapes(device: Device, meshes: tuple[Mesh, ...], has_uvs: bool) -> Sh
         "CornerNormals": scope.buffer("corner normals", pack_units(joined("corner_normals", 3))),
         "CornerUvs": scope.buffer("corner uvs", joined("corner_uvs", 2) if has_uvs else np.zeros((1, 2), "f4"))}
     n_slots = np.array([int(m.material_slots.max()) + 1 if len(m.material_slots) else 1 for m in meshes], "i8")
-    return Shapes(scope, buffers, first_triangle, n_slots, mesh_boxes(meshes))
+    return Shapes(scope, meshes, buffers, first_triangle, n_slots, mesh_boxes(meshes))
 
 
 def pack_units(vectors: np.ndarray) -> np.ndarray:

@@ -4,26 +4,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from ...gpu.buffer import Buffer
 from ...gpu.device import Device
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
+from ...needs import has_alpha, is_matte
 from ...scene import layouts
 from ...scene.types import Image, Material, Texture
 
 
 @dataclass(frozen=True, eq=False)
 class Surfaces:
-    """buffers: those of bind/materials.glsl. emission_unit: the highest radiance that any material sends out."""
+    """What was uploaded, and where.
+
+    rows, textures, pictures  the scene's materials, textures and images
+    materials      the buffers of bind/materials.glsl; images: those of bind/textures.glsl among them
+    opacities      the buffer of bind/opacity.glsl
+    has_alpha      (n_materials,) bool: whether a ray may pass through it
+    emission_unit  the highest radiance that any material sends out
+    """
 
     scope: GpuScope
-    buffers: dict[str, Any]
-    has_textures: bool
-    has_alpha: bool
-    has_specular: bool
-    has_glass: bool
+    rows: tuple[Material, ...]
+    textures: tuple[Texture, ...]
+    pictures: tuple[Image, ...]
+    materials: Resources
+    images: Resources
+    opacities: Buffer
+    has_alpha: np.ndarray
     emission_unit: float
 
 
@@ -33,26 +44,14 @@ def upload_surfaces(device: Device, materials: tuple[Material, ...], textures: t
     scope = device.scope()
     words = [_words(image) for image in images] if textures else []
     firsts = np.cumsum([0] + [len(w) for w in words])
-    buffers = {
-        "Materials": scope.buffer("materials", _materials(materials)),
+    device.profiler.counts["texture words"] = int(firsts[-1])
+    read = {
         "Textures": scope.buffer("textures", _textures(textures, images, firsts)),
         "Texels": scope.buffer("texels", np.concatenate(words) if words else np.zeros(0, "u4"))}
     return Surfaces(
-        scope, buffers, has_textures=has_textures(materials),
-        has_alpha=any(m.alpha < 1 or m.alpha_texture >= 0 for m in materials),
-        has_specular=has_specular(materials), has_glass=any(m.transmission > 0 for m in materials),
-        emission_unit=max((_emission_bound(m, textures, images) for m in materials), default=0.0))
-
-
-def has_textures(materials: tuple[Material, ...]) -> bool:
-    """Whether any material reads an image."""
-    return any(max(m.textures) >= 0 for m in materials)
-
-
-def has_specular(materials: tuple[Material, ...]) -> bool:
-    """Whether any material does more than send out and reflect light diffusely."""
-    return any(m.metallic > 0 or m.metallic_texture >= 0 or m.specular_level > 0 or m.transmission > 0
-               for m in materials)
+        scope, materials, textures, images, {"Materials": scope.buffer("materials", _materials(materials)), **read},
+        read, scope.buffer("opacities", _opacities(materials)), np.array([has_alpha(m) for m in materials], bool),
+        max((_emission_bound(m, textures, images) for m in materials), default=0.0))
 
 
 def _emission_bound(material: Material, textures: tuple[Texture, ...], images: tuple[Image, ...]) -> float:
@@ -66,9 +65,17 @@ def _emission_bound(material: Material, textures: tuple[Texture, ...], images: t
 
 def _materials(materials: tuple[Material, ...]) -> np.ndarray:
     rows = np.zeros(len(materials), layouts.dtype(layouts.MATERIAL))
+    names = [name for name in rows.dtype.names or () if name != "program"]
     for row, material in zip(rows, materials, strict=True):
-        for name in rows.dtype.names or ():
+        for name in names:
             row[name] = getattr(material, name)
+        row["program"] = layouts.CONSTANTS["PROGRAM_MATTE" if is_matte(material) else "PROGRAM_PRINCIPLED"]
+    return rows
+
+
+def _opacities(materials: tuple[Material, ...]) -> np.ndarray:
+    rows = np.zeros(len(materials), layouts.dtype(layouts.OPACITY))
+    rows["alpha"], rows["alpha_texture"] = [m.alpha for m in materials], [m.alpha_texture for m in materials]
     return rows
 
 

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose: what rays know of materials: which share of them each one stops. All else is for programs that trace nothing.
+
+#include "bind/instances.glsl"
+#include "bind/textures.glsl"
+
+layout(std430) readonly buffer Opacities { Opacity opacities[]; };  // of each material
+layout(std430) readonly buffer Cutouts { uint cutouts[]; };         // of each instance: 0 if it stops every ray
+
+float opacity_at(uint instance, uint triangle, vec2 bary)
+{
+    Opacity o = opacities[material_of(instance, triangle)];
+    return o.alpha_texture >= 0 ? o.alpha * texture_value(o.alpha_texture, uv_at(triangle, bary)) : o.alpha;
+}

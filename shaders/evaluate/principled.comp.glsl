@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose:    points whose material is the Principled BSDF with all that it has here, and images.
+// In:         Wave: hits; triangles, materials, images
+// Out:        Wave: points, and lobes where there are any
+// Invocation: one hit
+
+#include "bind/lobes.glsl"
+#include "bind/principled.glsl"
+#include "evaluate/hit.glsl"
+
+uniform bool u_takes_all;   // whether it fills in all points, and no other program is run
+
+const float ROUGH = 0.25;   // alpha from which a met surface mirrors what arrives from everywhere, not what one ray finds
+
+uint kind_of(Bsdf b)
+{
+    bool has_lobes = b.glossy + b.transmission != vec3(0.0), has_glass = b.glass != vec3(0.0);
+    return POINT_SURFACE | (has_lobes ? POINT_LOBES : 0u) | (b.alpha <= SMOOTH ? POINT_SMOOTH : 0u)
+         | (has_glass && is_bending(b) ? POINT_BENDING : 0u) | (b.alpha >= ROUGH && !has_glass ? POINT_ROUGH : 0u);
+}
+
+void evaluate(uint slot)
+{
+    Hit hit = get_hit(u_set, slot);
+    if (!is_surface(hit)) {
+        if (u_takes_all)
+            put_point(u_set, slot, no_point(hit));
+        return;
+    }
+    Material m = materials[material_of(hit.instance, hit.triangle)];
+    if (m.program != PROGRAM_PRINCIPLED && !u_takes_all)
+        return;
+    vec3 wo = -hit.direction;
+    Seen seen = seen_at(hit.instance, hit.triangle, hit.bary, wo);
+    add_uv(seen, hit.instance, hit.triangle, hit.bary);
+    vec3 normal = facing(mapped_normal(m, seen.uv, seen.surface.normal, seen.tangent, seen.bitangent), wo);
+    Shading shading = shading_at(m, seen.uv);
+    Bsdf b = principled(m, shading, dot(normal, wo), seen.is_back);
+    vec3 albedo = b.glossy + b.transmission;
+    Point p = point_of(hit, seen.surface, normal);
+    p.diffuse = b.diffuse;
+    p.emission = shading.emission;
+    p.kind = kind_of(b);
+    p.chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
+    put_point(u_set, slot, p);
+    if (is_kind(p, POINT_LOBES))
+        put_lobes(u_set, slot, wo, b);
+}

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which instances may let rays through."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...gpu.buffer import Buffer
+from ...gpu.device import Device
+from ...gpu.program import Resources
+from ...gpu.scope import GpuScope
+from .placing import Placing
+from .surfaces import Surfaces
+
+
+@dataclass(frozen=True, eq=False)
+class Cutouts:
+    """flags: a buffer u4, in the device's order of instances; 0 where every ray is stopped."""
+
+    scope: GpuScope
+    flags: Buffer
+
+
+def opacity_of(placing: Placing, surfaces: Surfaces, cutouts: Cutouts) -> Resources:
+    """What bind/opacity.glsl reads: all that rays know of materials."""
+    return {**placing.instances, **surfaces.images, "Opacities": surfaces.opacities, "Cutouts": cutouts.flags}
+
+
+def mark_cutouts(device: Device, placing: Placing, surfaces: Surfaces, skips: bool) -> Cutouts:
+    """Look at the materials of every instance. Without `skips` all count as cut out, which must change nothing."""
+    scope = device.scope()
+    inst = placing.placed
+    of_slots = surfaces.has_alpha[inst.slot_materials]
+    found = np.logical_or.reduceat(of_slots, inst.first_slot[:-1]) if len(inst) else np.zeros(0, bool)
+    flags = (found | (not skips))[placing.order].astype("u4")
+    device.profiler.counts["cutouts"] = int(flags.sum())
+    return Cutouts(scope, scope.buffer("cutouts", flags))
