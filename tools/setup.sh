@@ -73,9 +73,14 @@ packages_for_opengl() {
   done
 }
 
+# The compiler that `make lint` reads shaders with. Without it lint says so and goes on, so nothing fails for the lack of it.
+packages_for_lint() {
+  if [[ $EUID == 0 ]] && command -v apt-get >/dev/null && ! command -v glslangValidator >/dev/null; then echo glslang-tools; fi
+}
+
 install_libraries() {
   local packages
-  packages=$( (packages_for_bpy "$1" && packages_for_opengl "$1") | sort -u | xargs)
+  packages=$( (packages_for_bpy "$1" && packages_for_opengl "$1" && packages_for_lint) | sort -u | xargs)
   # shellcheck disable=SC2086 # names of packages hold no spaces
   if [[ -n $packages ]]; then install_system $packages; fi
   has_opengl "$1" || echo "setup: no OpenGL 4.3 through EGL yet: renders will say what is missing" >&2

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from svo_engine.scene import layouts
 
-from . import layers, references, shaders, text
+from . import glslang, layers, programs, references, shaders, text
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -17,7 +17,11 @@ def main() -> int:
     """Check the whole tree."""
     committed = (ROOT / "shaders/lib/layouts.glsl").read_text()
     found = [*layers.breaches(ROOT), *shaders.breaches(ROOT), *text.breaches(ROOT), *references.breaches(ROOT),
-             *shaders.layout_breaches(layouts.glsl(), committed)]
+             *programs.breaches(ROOT), *shaders.layout_breaches(layouts.glsl(), committed)]
+    if glslang.is_here():
+        found += glslang.breaches(ROOT)
+    else:
+        print(glslang.MISSING)
     print("\n".join(found) or "The house is in order.")
     return 1 if found else 0
 

@@ -13,7 +13,7 @@ from . import tree
 
 PACKAGE = "svo_engine"
 DATA = ("errors", "scene", "settings", "film", "metrics")
-BLENDER = ("bpy", "bpy_extras", "bl_ui", "mathutils", "gpu", "gpu_extras", "addon_utils")
+BLENDER = ("bpy", "bmesh", "bpy_extras", "bl_ui", "mathutils", "gpu", "gpu_extras", "addon_utils")
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,11 @@ LAYERS = {
     "scene": Layer(DATA, ("numpy",)),
     "settings": Layer(DATA, ("numpy",)),
     "metrics": Layer(DATA, ("numpy",)),
+    "needs": Layer(DATA, ("numpy",)),
     "film": Layer(DATA, ("numpy",), deferred=("PIL", "OpenEXR")),
     "gpu": Layer(("errors", "gpu"), ("numpy", "moderngl", "glcontext")),
-    "passes": Layer((*DATA, "gpu", "passes"), ("numpy",)),
-    "render": Layer((*DATA, "gpu", "passes"), ("numpy",)),
+    "passes": Layer((*DATA, "needs", "gpu", "passes"), ("numpy",)),
+    "render": Layer((*DATA, "needs", "gpu", "passes"), ("numpy",)),
     "blender": Layer((*DATA, "render", "blender"), ("numpy", *BLENDER)),
     "bench": Layer((*DATA, "gpu", "passes", "render", "bench"), ("numpy",),
                    deferred=("blender", "OpenEXR", "flip_evaluator", "matplotlib", "rich")),

@@ -16,8 +16,9 @@ LABELS = ("Purpose:", "In:", "Out:", "Invocation:")
 # Folders of shaders/ that are no stage: functions, and declarations of buffers
 INCLUDED_FOLDERS = {"lib", "bind"}
 
+
 # Modules of passes/ that are no stage but help several
-HELPERS = {"lights", "pixel_filter", "upload"}
+HELPERS = {"parts", "pixel_filter", "programs", "tracer", "upload", "variants"}
 
 
 def breaches(root: Path) -> list[str]:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 # Made by tools, none of ours; all other folders that begin with a dot are skipped too
 MADE_FOLDERS = {"__pycache__", "out", "dist", "wheels"}
+MADE_FILES = {".git"}  # of a second working tree: where the first one is
 DOT_FOLDERS = {".ci"}
 
 TEXT_SUFFIXES = {".py", ".glsl", ".md", ".toml", ".txt", ".sh", ".json", ".yml", ""}
@@ -18,7 +19,8 @@ def files(root: Path, *suffixes: str) -> Iterator[Path]:
     """Every file of ours under `root` whose name ends in one of `suffixes` (default: all), in a fixed order."""
     for folder, names, file_names in os.walk(root):
         names[:] = sorted(n for n in names if n not in MADE_FOLDERS and (not n.startswith(".") or n in DOT_FOLDERS))
-        yield from (Path(folder, name) for name in sorted(file_names) if not suffixes or name.endswith(suffixes))
+        yield from (Path(folder, name) for name in sorted(file_names)
+                   if name not in MADE_FILES and (not suffixes or name.endswith(suffixes)))
 
 
 def text_files(root: Path) -> Iterator[Path]:

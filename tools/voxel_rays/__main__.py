@@ -20,21 +20,20 @@ import numpy as np
 from svo_engine.errors import GpuError
 from svo_engine.gpu.device import Device
 from svo_engine.gpu.passes import Pass
-from svo_engine.passes.bvh import TRACE, TRACE_UNIFORMS, build_bvh, build_meshes
-from svo_engine.passes.cache import CACHE, CACHE_UNIFORMS, WORLD, light_cache, link
+from svo_engine.passes.bvh import build_bvh, build_meshes
+from svo_engine.passes.cache import light_cache, link
 from svo_engine.passes.lights import make_lights
 from svo_engine.passes.lights.glow import make_glow
 from svo_engine.passes.octree import build_octree
-from svo_engine.passes.upload import upload
-from svo_engine.passes.voxelize import GEOMETRY, MATERIALS
+from svo_engine.passes.tracer import make_rest, tracer_of
+from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.scene import store
 from svo_engine.scene.types import Scene
 from tests.tracing import Traced
 
 from .scenes import many_balls, seen_points
 
-GATHER = Pass(("../tools/voxel_rays/gather.comp.glsl",), (*GEOMETRY, *MATERIALS, *CACHE, "Starts", "Found"),
-              textures=("u_env", *TRACE), uniforms=(*CACHE_UNIFORMS, *TRACE_UNIFORMS, *WORLD, "u_round"))
+GATHER = Pass("../tools/voxel_rays/gather.comp.glsl")
 N_RAYS, N_TIMES = 16, 3
 N_COMPARED, N_ROUNDS, N_IN_ROUND = 2048, 4, 64  # points, and rays of each: llvmpipe ends loops after 65,535 turns
 
@@ -81,18 +80,21 @@ def measure(device: Device, scene: Scene, n: int, n_points: int) -> Iterator[tup
             made.callback(result.scope.close)
             return result
 
-        gpu_scene = keep(upload(device, scene))
-        bvh = keep(build_bvh(device, gpu_scene, keep(build_meshes(device, scene.meshes))))
-        octree, glow = keep(build_octree(device, gpu_scene, n)), keep(make_glow(device, gpu_scene))
-        lights = keep(make_lights(device, gpu_scene, glow))
-        links = keep(link(device, gpu_scene, octree, bvh, lights, 16, 4))
-        cache = keep(light_cache(device, gpu_scene, links, bvh, lights, 12))
+        gpu_scene: GpuScene = keep(upload(device, scene))
+        placing, surfaces, sky, world = gpu_scene.placing, gpu_scene.surfaces, gpu_scene.sky, gpu_scene.scene.world
+        bvh = keep(build_bvh(device, placing, keep(build_meshes(device, scene.meshes))))
+        tracer = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
+        octree = keep(build_octree(device, *gpu_scene.matter, n))
+        glow = keep(make_glow(device, placing, surfaces, sky, world))
+        lights = keep(make_lights(device, gpu_scene.lamps, glow))
+        links = keep(link(device, placing, surfaces, octree, tracer, glow, sky, world, 16, 4))
+        cache = keep(light_cache(device, placing, surfaces, links, tracer, lights, sky, world, 12))
         scope = made.enter_context(device.scope())
-        starts = scope.buffer("starts", seen_points(Traced(device, gpu_scene, bvh), n_points))
+        starts = scope.buffer("starts", seen_points(Traced(device, gpu_scene, tracer), n_points))
         found = scope.buffer("found", 16 * n_points)
-        resources = {**gpu_scene.geometry, **gpu_scene.materials, **gpu_scene.world(), **bvh.resources(),
+        resources = {**tracer.resources(), "Positions": gpu_scene.geometry["Positions"], **gpu_scene.world(),
                      **cache.resources(), "Starts": starts, "Found": found}
-        constants = {"HAS_ALPHA": gpu_scene.has_alpha, **bvh.constants()}
+        constants = tracer.constants()
         rates = measure_rates(device, constants, resources, n_points)
         exact, _, _ = gather(device, {**constants, "WAY": 0}, resources)
         for name, way in WAYS.items():

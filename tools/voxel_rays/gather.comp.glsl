@@ -7,6 +7,7 @@
 
 #include "bind/environment.glsl"
 #include "bind/trace.glsl"
+#include "bind/vertices.glsl"
 #include "../tools/voxel_rays/trace_voxels.glsl"
 
 const int WAY = 0;            // 0 exact, 1 voxels, 2 exact for NEAR voxels and voxels from there on
@@ -31,7 +32,7 @@ vec3 side_radiance(uint side)
 
 vec3 exact(vec3 o, vec3 d, float t_max, uint seed, out float t)
 {
-    Hit hit;
+    Crossing hit;
     bool is_hit = trace_closest(o, d, t_max, seed, hit);
     t = hit.t;
     if (!SHADE || !is_hit)
