@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from ..gpu.thread import GpuThread
 from ..render import Session
 from ..scene import store
 from ..scene.types import Scene
-from . import core, edits, host, references, scaling, tables, thesis
+from . import core, edits, host, references, scaling, skipping, tables, thesis, through_viewport
 from .progress import Lines, progress
 from .rungs import OURS, PEERS, TIME_LIMITS, Rung, ladder
 from .verdicts import verdicts
@@ -46,23 +46,45 @@ class Plan:
 
 
 def run_core(plan: Plan) -> None:
-    """Ladders and edits of scenes in .npz files; writes ladder.csv and edits.csv."""
+    """Ladders of scenes in .npz files; writes ladder.csv."""
     scenes = load_scenes(plan)
     truths = load_references(plan)
     ladders = plan.ladders()
-    cost = len(scenes) * (sum(rung.cost for rungs in ladders for rung in rungs) + len(ladders) * len(edits.EDITS))
     found: list[tables.Rendered] = []
-    edited: list[tables.Edited] = []
-    with closing(Session()) as session, progress(cost) as lines:
+    with (closing(Session()) as session,
+          progress(len(scenes) * sum(rung.cost for rungs in ladders for rung in rungs)) as lines):
         for (name, scene), truth in zip(scenes.items(), truths, strict=True):
             size = size_of(plan, scene, truth)
             for rungs in ladders:
                 found += core.ladder_rows(session, name, scene, truth, rungs, size, plan.longest, lines)
-                edited += core.edit_rows(session, name, scene, rungs[0], size, lines)
                 tables.write(plan.out, tables.Rendered, found)
-                tables.write(plan.out, tables.Edited, edited)
         host.write(plan.out, session.device_info()["renderer"])
     _print_verdicts(found)
+
+
+def run_edits(plan: Plan) -> None:
+    """What edits cost: of scenes in .npz files through the core, of .blend files through Blender's viewport; writes
+    edits.csv and viewport.csv, those that there are scenes for."""
+    whole = [path for path in plan.scenes if path.suffix == ".blend"]
+    scenes = load_scenes(replace(plan, scenes=[path for path in plan.scenes if path.suffix != ".blend"]))
+    edited: list[tables.Edited] = []
+    watched: list[tables.Watched] = []
+    with progress(len(scenes) * (1 + len(edits.EDITS)) + len(whole) * through_viewport.N_STEPS) as lines:
+        for name, scene in scenes.items():
+            with closing(Session()) as session:
+                edited += core.edit_rows(session, name, scene, plan.settings, size_of(plan, scene, None), lines)
+            tables.write(plan.out, tables.Edited, edited)
+        for path in whole:
+            watched += through_viewport.rows(path, plan.settings, plan.size, lines)
+            tables.write(plan.out, tables.Watched, watched)
+    _write_host(plan)
+
+
+def run_skipping(plan: Plan) -> None:
+    """What it saves to leave out what a scene does not need; writes skipping.csv."""
+    with closing(Session()) as session, progress(skipping.n_cases()) as lines:
+        tables.write(plan.out, tables.Skipped, skipping.rows(session, plan.size or skipping.SIZE, plan.settings, lines))
+    _write_host(plan)
 
 
 def run_thesis(plan: Plan) -> None:
@@ -122,9 +144,13 @@ def run_blender(plan: Plan, device: str, reference_samples: int) -> None:
             found += through_blender.scene_rows(path, reference, plan.out, ladders, plan.size, device,
                                                 reference_samples, plan.longest, lines)
             tables.write(plan.out, tables.Rendered, found)
+    _write_host(plan)
+    _print_verdicts(found)
+
+
+def _write_host(plan: Plan) -> None:
     with closing(Session()) as session:
         host.write(plan.out, session.device_info()["renderer"])
-    _print_verdicts(found)
 
 
 def write_report(folder: Path) -> None:

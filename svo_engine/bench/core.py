@@ -18,12 +18,15 @@ from ..render import Session
 from ..scene.camera import make_view
 from ..scene.types import Camera, Scene
 from ..settings import RenderSettings
-from .edits import KINDS, Edit, camera, possible
+from .edits import KINDS, Edit, Look, possible
 from .progress import Lines
 from .references import Reference
 from .rungs import Rung, Shot, climb, median, repeat, row
 from .tables import Edited, Rendered, pack, stages
 
+COMPILED = "programs compiled"  # among the counts of a film
+SOFTWARE = {"cache_resolution": "64", "resolution": "64"}  # of edits where there is no graphics card
+EDIT_RUNS = 5  # of short frames
 EDIT_SAMPLES = 1  # what an edit costs is not hidden behind many samples
 
 
@@ -45,30 +48,39 @@ def ladder_rows(session: Session, name: str, scene: Scene, reference: Reference 
             yield row(rung, again, reference, kind=kind, **circumstances)
 
 
-def edit_rows(session: Session, name: str, scene: Scene, rung: Rung, size: tuple[int, int],
+def edit_rows(session: Session, name: str, scene: Scene, values: Mapping[str, Any], size: tuple[int, int],
               lines: Lines) -> Iterator[Edited]:
-    """What each kind of edit costs after a frame of `scene` as it was, at the settings of `rung` but one sample."""
-    shooter, values, renderer = Shooter(session, size), {**rung.values, "samples": EDIT_SAMPLES}, rung.renderer
-    circumstances = {"scene": name, "size": f"{size[0]}x{size[1]}", "device": session.device_info()["renderer"],
-                     "renderer": renderer}
+    """What each kind of edit costs after a frame of `scene` as it was, at the settings `values` but one sample."""
+    if scene.camera is None:
+        raise SceneError(f"The scene '{name}' has no camera")
+    lines.step(f"{name}: all programs")
+    session.compile_now()
+    device = session.device_info()["renderer"]
+    values = {**(SOFTWARE if "llvmpipe" in device else {}), **values, "samples": EDIT_SAMPLES}
+    shooter, look = Shooter(session, size), Look(scene, scene.camera, values)
+    circumstances = {"scene": name, "size": f"{size[0]}x{size[1]}", "device": device,
+                     "renderer": values.get("method", "rays")}
     for edit_name, edit in possible(scene).items():
-        lines.step(f"{name}: {renderer}, {edit_name}")
-        shots = _edit_shots(shooter, scene, values, edit_name, edit)
-        yield Edited(**circumstances, edit=edit_name, seconds=median(shots), n_runs=len(shots),
+        lines.step(f"{name}: {edit_name}")
+        first, shots, warm = _edit_shots(shooter, edit, edit.start(look))
+        yield Edited(**circumstances, edit=edit_name, first=first.seconds, seconds=median(shots), warm=median(warm),
+                     n_programs=max(shot.counts[COMPILED] for shot in (first, *shots)), n_runs=len(shots),
                      parts=pack(stages(shots[-1].parts)))
 
 
-def _edit_shots(shooter: Shooter, scene: Scene, values: Mapping[str, Any], name: str, edit: Edit) -> list[Shot]:
-    """Timed frames after one edit, each another change; a first one is thrown away, so that all is compiled."""
-    numbers, anew = count(1), KINDS["all" if name == "everything" else "camera"]
+def _edit_shots(shooter: Shooter, edit: Edit, before: Look) -> tuple[Shot, list[Shot], list[Shot]]:
+    """The edit's very first frame, its frames when it is made again and again, and frames with nothing more to do."""
+    numbers = count(1)
 
     def shoot() -> Shot:
-        number = next(numbers)
-        shooter.shoot(scene, values)  # the frame before the edit
-        return shooter.shoot(edit(scene, number), values, camera(scene, number) if name == "camera" else None, anew)
+        after = edit.change(before, next(numbers))
+        shooter.show(before)
+        return shooter.show(after, KINDS["all" if edit.anew else "camera"])
 
-    shoot()
-    return repeat(shoot)
+    first, shots = shoot(), repeat(shoot, EDIT_RUNS)
+    last = edit.change(before, next(numbers))
+    shooter.show(last)
+    return first, shots, repeat(partial(shooter.show, last), EDIT_RUNS)
 
 
 class Shooter:
@@ -92,4 +104,8 @@ class Shooter:
         *_, film = self._session.films(scene, view, settings, interval=math.inf)
         seconds = time.perf_counter() - start
         return Shot(seconds, film.planes["Combined"][..., :3], film.n_samples, film.stats["times_ms"],
-                    film.stats["counts"]["device bytes"], film.stats["limits"])
+                    film.stats["counts"]["device bytes"], film.stats["limits"], film.stats["counts"])
+
+    def show(self, look: Look, anew: tuple[str, ...] | None = None) -> Shot:
+        """One frame of a look."""
+        return self.shoot(look.scene, look.values, look.camera, anew)

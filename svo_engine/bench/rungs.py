@@ -38,6 +38,7 @@ class Shot:
 
     parts  milliseconds: GPU passes as `stage/entry`, host steps as words; n_bytes  on the device, 0 where unknown
     limits  sentences on what was done otherwise than asked, because the device has too little room
+    counts  as Film.stats has them
     """
 
     seconds: float
@@ -46,6 +47,7 @@ class Shot:
     parts: Mapping[str, float] = field(default_factory=dict)
     n_bytes: int = 0
     limits: Sequence[str] = ()
+    counts: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -117,16 +119,16 @@ def expected(known: Sequence[tuple[float, float]], cost: float) -> float:
     return seconds_1 + max(seconds_1 - seconds_0, 0) / (cost_1 - cost_0) * (cost - cost_1)
 
 
-def repeat(shoot: Callable[[], Shot]) -> list[Shot]:
+def repeat(shoot: Callable[[], Shot], short_runs: int = SHORT_RUNS) -> list[Shot]:
     """RUNS shots, fewer where they take long.
 
-    Short ones are SHORT_RUNS, first shot for WARM_SECONDS without being counted: an idle graphics card has slowed down.
+    Short ones are short_runs, first shot for WARM_SECONDS without being counted: an idle graphics card has slowed down.
     """
     shots, n = [shoot()], RUNS
     if (seconds := shots[0].seconds) < WARM_SECONDS:
         while (seconds := seconds + shoot().seconds) < WARM_SECONDS:
             pass
-        shots, n = [], SHORT_RUNS
+        shots, n = [], short_runs
     while len(shots) < n and sum(shot.seconds for shot in shots) < RUNS_SECONDS:
         shots.append(shoot())
     return shots

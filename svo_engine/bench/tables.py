@@ -50,16 +50,87 @@ class Rendered:
 
 @dataclass(frozen=True)
 class Edited:
-    """A frame after an edit, one sample: seconds from scene to pixels, median of n_runs; what was done, see `pack`."""
+    """Frames after an edit through the core, seconds from scene to pixels; all programs were compiled before.
+
+    first       of the edit's very first time in the process
+    seconds     of the edit's frame, each time another value: median of n_runs
+    warm        of the next frame, with nothing edited: median
+    n_programs  compiled meanwhile, the most of any frame
+    parts       milliseconds of stages after the edit, see `pack`
+    """
 
     scene: str
     size: str
     device: str
     renderer: str
     edit: str
+    first: float
     seconds: float
+    warm: float
+    n_programs: int
     n_runs: int
     parts: str
+
+
+@dataclass(frozen=True)
+class Watched:
+    """An edit in Blender's viewport, 4 samples: seconds, medians of n_runs. nan: there is no such time.
+
+    first, final  from the edit to the first picture that shows it, and to the last sample
+    main          the longest time in one piece that the main thread was in our code
+    held          the longest time that a thread of Python that does nothing was held up, beyond the 2 ms that it sleeps
+    n_programs    compiled meanwhile, the most of any frame
+    """
+
+    scene: str
+    size: str
+    device: str
+    edit: str
+    first: float
+    final: float
+    main: float
+    held: float
+    n_programs: int
+    n_runs: int
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """A scene with all that it does not need left out, or with nothing left out; one sample.
+
+    need, has_it   what the scene has or lacks; skips: whether what it does not need is left out
+    anew, seconds  of a frame with everything anew, and of one with nothing to do but the picture, a median of n_runs;
+                   all counts are of the former
+    is_same        whether the picture is the same to the bit as with all left out that is not needed
+    n_dispatches   of programs, draws included
+    cache_rays, diffuse_rays, draws
+                   rays of the light cache, of pixels for diffuse light, and draws of light for pixels
+    path_steps     invocations that light and trace paths of mirrors and glass
+    principled, emitters
+                   invocations of the programs of all but plain diffuse materials, and of those of emissive triangles
+    cutouts, texels
+                   instances at which rays ask how opaque a surface is, and texels of materials' images on the device
+    """
+
+    need: str
+    has_it: bool
+    skips: bool
+    size: str
+    device: str
+    anew: float
+    seconds: float
+    n_runs: int
+    is_same: bool
+    n_bytes: int
+    n_dispatches: int
+    cache_rays: int
+    diffuse_rays: int
+    draws: int
+    path_steps: int
+    principled: int
+    emitters: int
+    cutouts: int
+    texels: int
 
 
 @dataclass(frozen=True)
@@ -91,7 +162,8 @@ class Scaled:
     n_bytes: int
 
 
-FILES: dict[type, str] = {Rendered: "ladder.csv", Edited: "edits.csv", Timed: "thesis.csv", Scaled: "scaling.csv"}
+FILES: dict[type, str] = {Rendered: "ladder.csv", Edited: "edits.csv", Watched: "viewport.csv", Skipped: "skipping.csv",
+                          Timed: "thesis.csv", Scaled: "scaling.csv"}
 
 
 def write(folder: Path, kind: type[Row], rows: Iterable[Row]) -> Path:
@@ -119,7 +191,7 @@ def read(folder: Path, kind: type[Row]) -> list[Row]:
 
 
 def _read_file(path: Path, kind: type[Row]) -> list[Row]:
-    types = get_type_hints(kind)
+    types = {name: _CONVERT.get(convert, convert) for name, convert in get_type_hints(kind).items()}
     with path.open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     try:
@@ -146,6 +218,9 @@ def stages(parts: Mapping[str, float]) -> dict[str, float]:
         stage = name.partition("/")[0]
         sums[stage] = sums.get(stage, 0.0) + ms
     return sums
+
+
+_CONVERT: dict[type, Any] = {bool: {"True": True, "False": False}.__getitem__}
 
 
 def _text(value: Any) -> str:

@@ -73,15 +73,16 @@ def triangle_scenes(most: int) -> Iterator[tuple[str, Scene]]:
 def occupy(device: Device, gpu_scene: Any, n: int) -> int:
     """Mark the voxels that surfaces touch; how many there are is not counted."""
     with device.scope() as scratch:
-        grid = make_grid(gpu_scene.extent, n)
-        work, n_strips = cut_strips(device, scratch, gpu_scene, grid)
+        grid = make_grid(gpu_scene.placing.extent, n)
+        work, n_strips = cut_strips(device, scratch, gpu_scene.placing, grid)
         mark(device, scratch, work, n_strips, grid)
     return 0
 
 
 def voxelize_whole(device: Device, gpu_scene: Any, n: int) -> int:
     """Voxels with the means of their surfaces; their number."""
-    made = voxelize(device, gpu_scene, n)
+    placing, surfaces, table = gpu_scene.matter
+    made = voxelize(device, placing, surfaces, table, n)
     made.scope.close()
     return made.n_voxels
 
@@ -101,11 +102,11 @@ def _timed(device: Device, name: str, scene: Scene, n: int, what: str,
         whole: list[float] = []
         n_voxels, parts = 0, {}
         while len(gpu) < RUNS and sum(whole) < RUNS_SECONDS * 1e3:
-            device.ctx.finish()
+            device.finish()
             device.profiler.reset()
             start = time.perf_counter()
             n_voxels = work(device, gpu_scene, n)
-            device.ctx.finish()
+            device.finish()
             whole.append((time.perf_counter() - start) * 1e3)
             parts = gpu_passes(device.profiler.times_ms())
             gpu.append(sum(parts.values()))

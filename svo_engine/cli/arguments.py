@@ -34,7 +34,8 @@ def _add_render(subparsers: Any) -> None:
     command.add_argument("--passes", dest="values", action="append", metavar="NAME,...", type=named("passes"),
                          help=f"render passes that the .exr holds too: {', '.join(PASSES)}")
     _add_settings(command)
-    command.add_argument("--stats", type=Path, metavar="FILE.json", help="write times, counts and versions there")
+    command.add_argument("--stats", type=Path, metavar="FILE.json",
+                         help="write times, counts and versions there, and say what was skipped and why")
 
 
 def _add_extract(subparsers: Any) -> None:

@@ -28,6 +28,8 @@ def add(subparsers: Any) -> None:
                               "them")
     command.add_argument("--out", type=Path, metavar="DIR", help="folder for the tables")
     for part, text in (("core", "the scenes are .npz; no Blender and no peers"),
+                       ("edits", "what edits cost, no ladders: of a .npz by the core, of a .blend through Blender"),
+                       ("skipping", "what it saves to leave out what a scene does not need"),
                        ("thesis", "the thesis's tables, on the first scene that is a .npz"),
                        ("scaling", "how time and memory grow")):
         command.add_argument(f"--{part}", action="store_true", help=text)
@@ -54,16 +56,18 @@ def bench(args: argparse.Namespace) -> None:
     """Do all that is asked for."""
     from ..bench import command
 
-    has_work = args.scenes or args.thesis or args.scaling
+    has_work = args.scenes or args.thesis or args.scaling or args.skipping
     if not has_work and not args.report:
-        raise SvoError("There is nothing to do: give --scenes, --thesis, --scaling or --report")
+        raise SvoError("There is nothing to do: give --scenes, --thesis, --scaling, --skipping or --report")
     if has_work and not args.out:
         raise SvoError("--out is missing: the folder for the tables")
-    is_core = args.core or args.thesis
+    is_core = args.core or args.thesis or args.edits
     plan = command.Plan(args.scenes, args.references, args.out,
                         command.chosen_renderers(args.renderers, is_core, args.device) if args.scenes else (),
                         args.samples, args.time_limits, args.size, args.longest, _settings(args.values))
-    if args.core:
+    if args.edits:
+        command.run_edits(plan)
+    elif args.core:
         command.run_core(plan)
     elif args.scenes and not args.thesis:
         command.run_blender(plan, args.device, args.reference_samples)
@@ -71,6 +75,8 @@ def bench(args: argparse.Namespace) -> None:
         command.run_thesis(plan)
     if args.scaling:
         command.run_scaling(plan)
+    if args.skipping:
+        command.run_skipping(plan)
     if args.report:
         command.write_report(args.report)
 

@@ -37,9 +37,10 @@ def render(args: argparse.Namespace) -> None:
     stats = render_kind(args, pictures)
     stats |= {"scene": args.file.name, "seconds": time.perf_counter() - started, "versions": _versions()}
     _warn(stats["warnings"])
+    _print_render(pictures, stats)
     if args.stats:
         _write(args.stats, json.dumps(stats, indent=2) + "\n")
-    _print_render(pictures, stats)
+        _print_rows({f"skipped: {name}": reason for name, reason in stats["skipped"].items()} or {"skipped": "nothing"})
 
 
 def _render_blend(args: argparse.Namespace, pictures: list[Path]) -> dict[str, Any]:

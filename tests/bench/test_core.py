@@ -11,11 +11,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from svo_engine.bench import edits, references, scaling, shapes, tables, thesis
+from svo_engine.bench import core, edits, references, scaling, shapes, skipping, tables, thesis
 from svo_engine.bench.progress import Lines, progress
 from svo_engine.cli import main
 from svo_engine.errors import GpuError
 from svo_engine.gpu.thread import GpuThread
+from svo_engine.needs import needs_of
 from svo_engine.scene import store
 from svo_engine.scene.camera import make_view
 from svo_engine.settings import RenderSettings
@@ -39,7 +40,7 @@ def saved(tmp_path, session):
     return tmp_path
 
 
-def test_ladder_and_edits_with_nothing_but_the_core(saved, root):
+def test_ladder_with_nothing_but_the_core(saved, root):
     arguments = ["bench", "--core", "--scenes", saved / "room.npz", "--references", saved / "room_reference.npz",
                  "--out", saved / "out", "--renderers", "rays", "--samples", "1", "2", "--time-limits", "1000",
                  *(word for name, value in QUICK.items() for word in ("--set", f"{name}={value}"))]
@@ -59,7 +60,14 @@ sys.exit(main())
     assert np.isnan(ladder[0].flip)
     by_kind = {row.kind: tables.unpack(row.parts) for row in ladder}
     assert "cache" in by_kind["light"] and "cache" not in by_kind["camera"]
-    assert {row.edit for row in tables.read(saved / "out", tables.Edited)} == set(edits.EDITS)
+
+
+def test_no_edit_compiles_a_program(session, monkeypatch):
+    monkeypatch.setattr(core, "repeat", lambda shoot, _n=0: [shoot()])
+    found = list(core.edit_rows(session, "room", scenes.cornell(), {**QUICK, "resolution": "32"}, SIZE, Lines()))
+    assert [row.edit for row in found] == list(edits.EDITS)
+    assert {row.edit: row.n_programs for row in found} == dict.fromkeys(edits.EDITS, 0)
+    assert all(min(row.first, row.seconds, row.warm) > 0 for row in found)
 
 
 @pytest.mark.parametrize(("arguments", "sentence"), [
@@ -82,24 +90,69 @@ def test_one_reference_for_each_scene_or_none(saved, capsys):
     assert "2 scenes and 1 references" in capsys.readouterr().err
 
 
-def test_every_edit_changes_what_it_says_and_nothing_else():
+CHANGES = {
+    "meshes": ("mesh edited",), "camera": ("camera",), "instances": ("object moved", "object added", "object deleted"),
+    "lights": ("lamp's power", "lamp moved", "2nd lamp added", "3rd lamp added", "10th lamp added"),
+    "materials": ("colour", "roughness", "specular 0 to .5", "metallic", "transmission", "alpha", "emission"),
+    "values": ("a pass switched on", "F12's samples after a viewport's", "rays to cones", "cones to rays")}
+ALIKE = ("F12's samples after a viewport's", "rays to cones", "cones to rays")  # each time the same change
+
+
+def look():
     scene = scenes.cornell()
-    named = edits.possible(scene)
-    assert set(named) == set(edits.EDITS)
-    assert named["nothing"](scene, 1) is scene
-    assert named["lamp's power"](scene, 1).lights[0].emitted > scene.lights[0].emitted
-    assert named["material's colour"](scene, 1).materials[0].base_color < scene.materials[0].base_color
-    for name in ("lamp moved", "lamp's power", "material's colour", "object moved"):
-        edited = named[name](scene, 1)
-        changed = {field for field in ("meshes", "instances", "materials", "lights", "world", "camera")
-                   if getattr(edited, field) is not getattr(scene, field)}
-        assert len(changed) == 1
-    assert not np.array_equal(edits.camera(scene, 1).world_from_camera, edits.camera(scene, 2).world_from_camera)
+    return edits.Look(scene, scene.camera, {"samples": 1})
+
+
+def changed(a, b):
+    parts = ("meshes", "instances", "materials", "lights", "world")
+    return {name for name in parts if getattr(a.scene, name) is not getattr(b.scene, name)} | {
+        name for name in ("camera", "values") if getattr(a, name) != getattr(b, name)}
+
+
+@pytest.mark.parametrize("name", edits.EDITS)
+def test_every_edit_changes_what_it_says_and_nothing_else(name):
+    edit = edits.EDITS[name]
+    before = edit.start(look())
+    first, second = edit.change(before, 1), edit.change(before, 2)
+    expected = {part for part, names in CHANGES.items() if name in names}
+    assert changed(before, first) == expected
+    if name not in ALIKE:
+        assert changed(first, second) == expected  # no two frames are the same
+    RenderSettings(**first.values)
+
+
+def test_lamps_and_objects_are_as_many_as_edits_say():
+    def counts(name):
+        before = edits.EDITS[name].start(look())
+        return [(len(each.scene.lights), len(each.scene.instances)) for each in (
+            before, edits.EDITS[name].change(before, 1))]
+
+    n = len(look().scene.instances)
+    assert counts("2nd lamp added") == [(1, n), (2, n)]
+    assert counts("10th lamp added") == [(9, n), (10, n)]
+    assert counts("object added") == [(1, n), (1, n + 1)]
+    assert counts("object deleted") == [(1, n + 1), (1, n)]
 
 
 def test_a_scene_without_lamps_has_no_lamp_to_edit():
     found = edits.possible(replace(scenes.cornell(), lights=()))
-    assert set(edits.EDITS) - set(found) == {"lamp's power", "lamp moved"}
+    assert {name for name in edits.EDITS if "lamp" in name} == set(edits.EDITS) - set(found)
+
+
+def test_the_cornell_box_needs_nothing_of_mirrors_images_or_alpha(session):
+    lit, _ = skipping.cases()["light"]
+    shot = core.Shooter(session, SIZE).shoot(lit.scene, {**skipping.SETTINGS, **QUICK}, anew=edits.KINDS["all"])
+    done = skipping.counters(shot, RenderSettings(**QUICK))
+    assert {name for name, n in done.items() if not n} == {"path_steps", "principled", "emitters", "cutouts", "texels"}
+
+
+@pytest.mark.parametrize("need", skipping.cases())
+def test_cases_of_needs_are_scenes_that_have_them_and_lack_them(need):
+    having, lacking = (needs_of(case.scene, RenderSettings(**case.values)) for case in skipping.cases()[need])
+    if need == "passes":
+        assert having == lacking
+    else:
+        assert (need in having.told(), need in lacking.told()) == (False, True)
 
 
 @pytest.mark.parametrize("n", [100, 5000, 20000])

@@ -8,7 +8,7 @@ import math
 import pytest
 
 from svo_engine.bench import host, tables
-from svo_engine.bench.tables import Edited, Rendered, Scaled, Timed
+from svo_engine.bench.tables import Edited, Rendered, Scaled, Skipped, Timed, Watched
 from svo_engine.bench.verdicts import verdicts
 from svo_engine.errors import SvoError
 
@@ -29,18 +29,24 @@ def rendered(renderer, n, seconds, error, kind="render"):
 LADDER = [*(rendered("rays", n, t, 1e-3 / t) for n, t in ((1, 0.1), (100, 10.0))),
           rendered("rays", 1, 0.01, 1e-2, kind="camera"),
           *(rendered("cycles-oidn", n, t, 1e-3 / t**2) for n, t in ((1, 0.1), (100, 10.0)))]
-EDITS = [Edited("box", "8x6", "card", "rays", "lamp moved", 0.02, 3, "cache 12")]
+EDITS = [Edited("box", "8x6", "card", "rays", "lamp moved", 0.05, 0.03, 0.02, 0, 3, "cache 12")]
+WATCHED = [Watched("box", "8x6", "card", "lamp moved", 0.04, 0.5, 0.002, 0.007, 0, 3),
+           Watched("box", "8x6", "card", "F12", NAN, 0.6, NAN, 0.006, 1, 3)]
+SKIPPED = [Skipped("light", has_it, skips, "8x6", "card", 0.02, 0.01, 3, skips, 2**20, 40, 96, 48, 24,
+                   *[0 if skips else 5] * 5)
+           for has_it in (True, False) for skips in (True, False)]
 TIMES = [*(Timed("box", 5000, "card", what, n, 7, 0.5, 1.0, 3, "voxelize/mark 0.5")
            for n in (64, 128) for what in ("occupancy", "voxels")),
          Timed("box", 5000, "card", "whole frame", 128, 0, 2.0, 3.0, 3, "gather 2"),
          *(Timed(f"ball {n}", n, "card", "voxels", 128, 7, n / 1e3, 1.0, 3, "") for n in (1000, 10000))]
 SCALES = [Scaled("triangles", "card", float(n), n / 1e3, 3, f"bvh/sort {n / 2}; gather/rays 1e-6", 10 * n)
           for n in (10, 100, 1000, 10000)]
+TABLES = {Rendered: LADDER, Edited: EDITS, Watched: WATCHED, Skipped: SKIPPED, Timed: TIMES, Scaled: SCALES}
 
 
 @pytest.fixture
 def folder(tmp_path):
-    for kind, rows in ((Rendered, LADDER), (Edited, EDITS), (Timed, TIMES), (Scaled, SCALES)):
+    for kind, rows in TABLES.items():
         tables.write(tmp_path / "data/machine", kind, rows)
     host.write(tmp_path / "data/machine", "card")
     return tmp_path
@@ -51,7 +57,7 @@ def as_text(rows):
 
 
 def test_tables_come_back_as_they_were(folder):
-    for kind, rows in ((Rendered, LADDER), (Edited, EDITS), (Timed, TIMES), (Scaled, SCALES)):
+    for kind, rows in TABLES.items():
         assert as_text(tables.read(folder / "data/machine", kind)) == as_text(rows)
     assert tables.read(folder, Rendered) == []
 
@@ -91,10 +97,14 @@ def test_a_frame_that_redoes_less_counts_for_no_verdict():
 
 def test_pages_and_plots(folder):
     pages = report.write(folder)
-    assert [page.name for page in pages] == ["speed.md", "thesis.md", "scaling.md"]
-    speed, thesis, scaling = (page.read_text() for page in pages)
+    assert [page.name for page in pages] == ["speed.md", "edits.md", "skipping.md", "thesis.md", "scaling.md"]
+    speed, edits, skipping, thesis, scaling = (page.read_text() for page in pages)
     assert "crossover at 1 s" in speed and "| rays | 1 samples | 1 | 100 ms | 3 |" in speed
-    assert "lamp moved | 20 ms | cache 12.0" in speed and "noise is not known" in speed
+    assert "noise is not known" in speed
+    assert "| lamp moved | 50.0 | 30.0 | 20.0 | 1.50 | 0 | 3 | cache 12.0 |" in edits
+    assert "| lamp moved | 40.0 | 500 | 2.00 | 7.00 | 0 |" in edits and "| F12 | - | 600 | - | 6.00 | 1 |" in edits
+    assert "| **light**: without, all | 20.0 | 10.0 | 1.00 | no | 40 | 96 | 48 | 24 | 5 | 5 | 5 | 5 | 5 |" in skipping
+    assert "box: 0 steps of specular paths, 0 invocations" in skipping
     assert "| 128 | 0.500 | 1.00 | 0.500 | 1.00 | 9.50 | 0.300 | 7 |" in thesis and "to the power 1.00" in thesis
     assert "| bvh | 1.00 | 1.00 |" in scaling and "| memory | 1.00 | 1.00 |" in scaling and "gather" not in scaling
     for name in ("machine_box_8x6.png", "machine_scaling.png"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""CSV files in, pages and plots out: DIR/data/*/ become DIR/speed.md, thesis.md and scaling.md, and their plots."""
+"""CSV files in, pages and plots out: DIR/data/*/ become DIR/speed.md, edits.md and so on, and plots."""
 
 from __future__ import annotations
 
@@ -7,15 +7,19 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ...errors import SvoError
-from . import runs, scaling, speed, thesis
+from . import edits, runs, scaling, skipping, speed, thesis
 
 
 def write(folder: Path) -> list[Path]:
     """Write the pages that there are numbers for; SvoError if there are none, or a file cannot be read or written."""
     found = [runs.read(path) for path in sorted((folder / "data").glob("*")) if path.is_dir()]
     pages: dict[str, Callable[[], str]] = {}
-    if any(run.ladder or run.edits for run in found):
+    if any(run.ladder for run in found):
         pages["speed.md"] = lambda: speed.page(found, folder)
+    if any(run.edits or run.watched for run in found):
+        pages["edits.md"] = lambda: edits.page(found)
+    if any(run.skipping for run in found):
+        pages["skipping.md"] = lambda: skipping.page(found)
     if any(run.thesis for run in found):
         pages["thesis.md"] = lambda: thesis.page(found)
     if any(run.scaling for run in found):

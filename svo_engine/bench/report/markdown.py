@@ -6,6 +6,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
+from ..tables import unpack
+
 
 def table(headers: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A table whose first column is text and whose others are numbers."""
@@ -42,3 +44,9 @@ def percent(value: float) -> str:
 def size(n_bytes: float) -> str:
     """Bytes in MiB."""
     return number(n_bytes / 2**20)
+
+
+def largest(cell: str, n: int = 5) -> str:
+    """Those of packed milliseconds that take longest."""
+    parts = sorted(unpack(cell).items(), key=lambda part: -part[1])[:n]
+    return ", ".join(f"{name} {number(ms)}" for name, ms in parts)

@@ -19,21 +19,24 @@ class Run:
     circumstances: Mapping[str, Any]
     ladder: list[tables.Rendered]
     edits: list[tables.Edited]
+    watched: list[tables.Watched]
+    skipping: list[tables.Skipped]
     thesis: list[tables.Timed]
     scaling: list[tables.Scaled]
 
     def heading(self) -> str:
-        """Its title and where the numbers come from."""
+        """Its title, where the numbers come from, and what whoever measured has noted by hand."""
         found = self.circumstances
         if not found:
             return f"## {self.name}\n"
         versions = ", ".join(f"{name} {version}" for name, version in found["versions"].items())
         return (f"## {self.name}\n\nOpenGL device: {found['device']}. Processor: {found['processor']}, "
-                f"{found['cores']} cores. {versions}.\n")
+                f"{found['cores']} cores. {versions}.\n" + (f"\n{found['note']}\n" if "note" in found else ""))
 
 
 def read(folder: Path) -> Run:
     """The run in `folder`; SvoError names a file that is none of ours."""
     return Run(folder.name, host.read(folder), tables.read(folder, tables.Rendered),
-               tables.read(folder, tables.Edited), tables.read(folder, tables.Timed),
+               tables.read(folder, tables.Edited), tables.read(folder, tables.Watched),
+               tables.read(folder, tables.Skipped), tables.read(folder, tables.Timed),
                tables.read(folder, tables.Scaled))

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""speed.md: run time against error for each scene, what that says beside each peer, and what edits cost."""
+"""speed.md: run time against error for each scene, and what that says beside each peer."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ..tables import Rendered, unpack
+from ..tables import Rendered
 from ..verdicts import NAMES, Verdict, is_whole, seconds, verdicts
-from .markdown import factor, number, percent, table
+from .markdown import factor, largest, number, percent, table
 from .plots import error_over_time
 from .runs import Run
 
@@ -26,8 +26,8 @@ def page(runs: Sequence[Run], folder: Path) -> str:
     """The page's text; writes a plot for each scene of each run into `folder`."""
     parts = [_INTRO]
     for run in runs:
-        if run.ladder or run.edits:
-            parts += [run.heading(), *_scenes(run, folder), *_edits(run)]
+        if run.ladder:
+            parts += [run.heading(), *_scenes(run, folder)]
     return "\n".join(parts)
 
 
@@ -74,17 +74,4 @@ def _kinds(rows: Sequence[Rendered]) -> str:
     if not ours:
         return ""
     return table(("Frame", "Rung", "Anew", "Time", "Milliseconds of its parts"),
-                 ([NAMES[r.renderer], r.rung, r.kind, seconds(r.seconds), _largest(r.parts)] for r in ours))
-
-
-def _edits(run: Run) -> Iterator[str]:
-    if run.edits:
-        yield "### What an edit costs\n\nOne sample after the edit, from the scene to pixels on the host.\n"
-        yield table(("Scene", "Size", "Renderer", "Edit", "Time", "Milliseconds of its parts"),
-                    ([e.scene, e.size, e.renderer, e.edit, seconds(e.seconds), _largest(e.parts)] for e in run.edits))
-
-
-def _largest(cell: str, n: int = 5) -> str:
-    """The parts that take longest."""
-    parts = sorted(unpack(cell).items(), key=lambda part: -part[1])[:n]
-    return ", ".join(f"{name} {number(ms)}" for name, ms in parts)
+                 ([NAMES[r.renderer], r.rung, r.kind, seconds(r.seconds), largest(r.parts)] for r in ours))
