@@ -23,12 +23,16 @@ Fields = tuple[tuple[str, str], ...]
 INSTANCE: Fields = (("row_x", "vec4"), ("row_y", "vec4"), ("row_z", "vec4"), ("first_triangle", "uint"),
                     ("n_triangles", "uint"), ("first_work", "uint"), ("first_slot", "uint"))
 
-# `scene.types.Material`; textures are indices, -1 for none
+# `scene.types.Material`; textures are indices, -1 for none. program: which of shaders/evaluate turns it into a Point,
+# PROGRAM_*
 MATERIAL: Fields = (("base_color", "vec3"), ("alpha", "float"), ("emission", "vec3"), ("roughness", "float"),
                     ("specular_tint", "vec3"), ("metallic", "float"), ("ior", "float"), ("specular_level", "float"),
                     ("transmission", "float"), ("normal_strength", "float"), ("base_color_texture", "int"),
                     ("roughness_texture", "int"), ("metallic_texture", "int"), ("emission_texture", "int"),
-                    ("alpha_texture", "int"), ("normal_texture", "int"))
+                    ("alpha_texture", "int"), ("normal_texture", "int"), ("program", "uint"))
+
+# What a ray must know of a material: which share of all rays it stops, and the texture that multiplies that, or -1
+OPACITY: Fields = (("alpha", "float"), ("alpha_texture", "int"))
 
 # `scene.types.Texture` with its image: texels first_word ... of the words buffer, in `format` FORMAT_*
 TEXTURE: Fields = (("u_from_uv", "vec3"), ("first_word", "uint"), ("v_from_uv", "vec3"), ("format", "uint"),
@@ -71,15 +75,22 @@ BVH_INSTANCE: Fields = (("inv_x", "vec4"), ("inv_y", "vec4"), ("inv_z", "vec4"),
 # What a tree is built from: box, reference, and tree << BVH_HEIGHT_BITS | height
 CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("tree_height", "uint"))
 
-STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Texture": TEXTURE, "Light": LIGHT, "LightNode": LIGHT_NODE,
-           "Emitter": EMITTER, "Voxel": VOXEL, "Surfel": SURFEL, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE,
-           "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
+STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Texture": TEXTURE, "Light": LIGHT,
+           "LightNode": LIGHT_NODE, "Emitter": EMITTER, "Voxel": VOXEL, "Surfel": SURFEL, "BvhNode": BVH_NODE,
+           "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
              "LIGHT_POINT": 0, "LIGHT_SUN": 1, "LIGHT_SPOT": 2, "LIGHT_AREA": 3,
              "NO_NORMAL": 0x80008000,
-             "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6}
+             "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6,
+             "HIT_DONE": 0xfffffffe,
+             "PROGRAM_MATTE": 0, "PROGRAM_PRINCIPLED": 1,
+             "POINT_SURFACE": 1, "POINT_LOBES": 2, "POINT_SMOOTH": 4, "POINT_BENDING": 8, "POINT_ROUGH": 16,
+             "POINT_DONE": 32, "POINT_LIFTED": 64, "POINT_GLOWS": 128,
+             # uvec4 a slot in bind/wave.glsl
+             "HIT_PLANES": 3, "POINT_PLANES": 6, "LOBES_PLANES": 11, "ARRIVAL_PLANES": 3, "GLOSS_PLANES": 4,
+             "PATH_PLANES": 3, "DRAW_PLANES": 2}
 
 
 @cache

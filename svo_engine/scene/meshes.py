@@ -3,10 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from ..errors import SceneError
-from .types import Mesh
+from .geometry import Domain
+from .types import Attribute, Mesh
 
 # Blender's own meshes reach 1e5 m at most in practice; squares of lengths beyond this leave the range of f4
 LARGEST_COORDINATE = 1e15
@@ -18,35 +22,64 @@ _SHORTEST_NORMAL = 1e-6
 _PART = 1 << 14  # triangles
 
 
+class Raw(NamedTuple):
+    """As an Attribute, with values that nobody has looked at yet."""
+
+    name: str
+    domain: Domain
+    values: np.ndarray
+
+
 def make_mesh(name: str, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray | None = None,
-              corner_uvs: np.ndarray | None = None,
-              material_slots: np.ndarray | None = None) -> tuple[Mesh, tuple[str, ...]]:
+              corner_uvs: np.ndarray | None = None, material_slots: np.ndarray | None = None,
+              raw: Sequence[Raw] = (), **more: Any) -> tuple[Mesh, tuple[str, ...]]:
     """A Mesh and the warnings about what was dropped from it.
 
     positions  (n_vertices, 3), triangles (n_triangles, 3); optional arrays as in `Mesh`, default: the triangle's own
-    normal, zero coordinates, slot 0. Triangles with a corner that is not finite are dropped; so are, without a word,
+    normal, slot 0. raw: attributes before anything is dropped; corner_uvs is short for an active UV map among them;
+    `more` are fields of Mesh. Triangles with a corner that is not finite are dropped; so are, without a word,
     those without area, for they cover nothing and Blender's own texts and spheres have them, and vertices that no
-    triangle is left to use. Normals and coordinates that are not finite are replaced by the triangle's normal and by
+    triangle is left to use. Normals and values that are not finite are replaced by the triangle's normal and by
     zero. SceneError if a triangle names a vertex that is not there.
     """
     positions = np.ascontiguousarray(positions, "f4").reshape(-1, 3)
     triangles = np.ascontiguousarray(triangles, "u4").reshape(-1, 3)
     if len(triangles) and triangles.max() >= len(positions):
         raise SceneError(f"Mesh '{name}': a triangle names vertex {triangles.max()} of {len(positions)}")
+    if corner_uvs is not None:
+        raw, more = (*raw, Raw("UVMap", "CORNER", np.reshape(corner_uvs, (-1, 2)))), {**more, "uv_map": "UVMap"}
     finite = (np.abs(positions) < LARGEST_COORDINATE).all(1)[triangles].all(1)
     cross = _cross(positions, triangles, finite)
     keep = (cross != 0).any(1)
 
-    normals, uvs, slots = (None if a is None else _kept(np.asarray(a, dtype).reshape(-1, *shape), keep)
-                           for a, dtype, shape in ((corner_normals, "f4", (3, 3)), (corner_uvs, "f4", (3, 2)),
-                                                   (material_slots, None, ())))
-    n = int(keep.sum())
-    normals, uvs, n_bad_uvs = _unit_normals(normals, _kept(cross, keep)), *_finite_uvs(uvs, n)
-    slots = np.zeros(n, "u4") if slots is None else slots.astype("u4")
-    counts = ((int((~finite).sum()), "triangles dropped: a corner is not a finite number"),
-              (n_bad_uvs, "triangles have UV coordinates that are not finite; zero is used"))
-    warnings = tuple(f"Mesh '{name}': {count} {what}" for count, what in counts if count)
-    return Mesh(name, *_used(positions, _kept(triangles, keep)), normals, uvs, slots), warnings
+    normals, slots = (None if a is None else _kept(np.asarray(a, dtype).reshape(-1, *shape), keep)
+                      for a, dtype, shape in ((corner_normals, "f4", (3, 3)), (material_slots, None, ())))
+    normals = _unit_normals(normals, _kept(cross, keep))
+    slots = np.zeros(len(normals), "u4") if slots is None else slots.astype("u4")
+    used = np.zeros(len(positions), bool)
+    triangles = _kept(triangles, keep)
+    used[triangles] = True
+    attributes, warnings = _attributes(raw, {"POINT": used, "FACE": keep, "CORNER": keep})
+    if not finite.all():
+        warnings = (f"{int((~finite).sum())} triangles dropped: a corner is not a finite number", *warnings)
+    made = Mesh(name, *_used(positions, triangles, used), normals, slots, attributes, **more)
+    return made, tuple(f"Mesh '{name}': {warning}" for warning in warnings)
+
+
+def _attributes(raw: Sequence[Raw], keep: dict[str, np.ndarray]) -> tuple[tuple[Attribute, ...], tuple[str, ...]]:
+    """The attributes' rows to keep, zeros for all that is not finite, and warnings about that."""
+    made, warnings = [], []
+    for name, domain, values in raw:
+        rows = np.asarray(values, "f4")
+        rows = _kept(rows.reshape(-1, 3, rows.shape[1]) if domain == "CORNER" else rows, keep[domain])
+        finite = np.isfinite(rows)
+        if not finite.all():
+            n_bad = int((~finite.reshape(len(rows), -1).all(1)).sum())
+            whose = {"POINT": "vertices", "FACE": "triangles", "CORNER": "triangles"}[domain]
+            warnings.append(f"{n_bad} {whose} have values of '{name}' that are not finite; zero is used")
+            rows = np.where(finite, rows, np.float32(0))
+        made.append(Attribute(name, domain, np.ascontiguousarray(rows).reshape(-1, values.shape[1])))
+    return tuple(made), tuple(warnings)
 
 
 def _kept(rows: np.ndarray, keep: np.ndarray) -> np.ndarray:
@@ -92,20 +125,8 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
     return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
 
 
-def _finite_uvs(uvs: np.ndarray | None, n: int) -> tuple[np.ndarray, int]:
-    """Coordinates (n, 3, 2) f4 with zeros for all that is not finite, and how many triangles that concerns."""
-    if uvs is None:
-        return np.zeros((n, 3, 2), "f4"), 0
-    finite = np.isfinite(uvs)
-    if finite.all():
-        return np.ascontiguousarray(uvs), 0
-    return np.where(finite, uvs, 0).astype("f4"), int((~finite).any((1, 2)).sum())
-
-
-def _used(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _used(positions: np.ndarray, triangles: np.ndarray, used: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Only the vertices that triangles use, so that no other one counts for the bounds, and the triangles in them."""
-    used = np.zeros(len(positions), bool)
-    used[triangles] = True
     if used.all():
         return positions, triangles
     return positions[used], (np.cumsum(used) - 1).astype("u4")[triangles]

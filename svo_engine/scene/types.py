@@ -8,90 +8,22 @@ Colours are scene-linear RGB in Blender's working space. Radiometric units are W
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 
 from ..errors import SceneError
 from .bounds import bounds, mesh_boxes
+from .checks import check
+from .geometry import Attribute, Instances, Mesh, with_fields
+from .graph import Graph
+
+__all__ = ["Attribute", "Camera", "Color", "Graph", "Image", "Instances", "Light", "LightKind", "Material", "Mesh",
+           "Scene", "Texture", "View", "World"]
 
 Color = tuple[float, float, float]
-
-
-def _check(owner: str, name: str, array: np.ndarray, dtype: str, shape: tuple[int | None, ...]) -> None:
-    """Raise SceneError unless `array` has `dtype` and `shape` (None: any length) and holds finite numbers only."""
-    matches = array.ndim == len(shape) and all(w is None or w == s for w, s in zip(shape, array.shape, strict=True))
-    if array.dtype != np.dtype(dtype) or not matches:
-        wanted = "x".join("n" if s is None else str(s) for s in shape)
-        raise SceneError(f"{owner}: {name} must be {wanted} of {dtype}, not {array.shape} of {array.dtype}")
-    if array.dtype.kind == "f" and not np.isfinite(array).all():
-        raise SceneError(f"{owner}: {name} holds a number that is not finite")
-
-
-@dataclass(frozen=True, eq=False)
-class Mesh:
-    """Triangles of one evaluated mesh, stored once however many instances show it. Build with `meshes.make_mesh`.
-
-    positions       (n_vertices, 3) f4, metres, object space
-    triangles       (n_triangles, 3) u4, indices into positions
-    corner_normals  (n_triangles, 3, 3) f4, unit shading normals, object space
-    corner_uvs      (n_triangles, 3, 2) f4, texture coordinates of the active UV map, zeros without one
-    material_slots  (n_triangles,) u4, the slot of each triangle; an instance says which material sits in a slot
-    """
-
-    name: str
-    positions: np.ndarray
-    triangles: np.ndarray
-    corner_normals: np.ndarray
-    corner_uvs: np.ndarray
-    material_slots: np.ndarray
-
-    def __post_init__(self) -> None:
-        owner = f"Mesh '{self.name}'"
-        n = len(self.triangles)
-        _check(owner, "positions", self.positions, "f4", (None, 3))
-        _check(owner, "triangles", self.triangles, "u4", (None, 3))
-        _check(owner, "corner_normals", self.corner_normals, "f4", (n, 3, 3))
-        _check(owner, "corner_uvs", self.corner_uvs, "f4", (n, 3, 2))
-        _check(owner, "material_slots", self.material_slots, "u4", (n,))
-        if n and self.triangles.max() >= len(self.positions):
-            raise SceneError(f"{owner}: a triangle names vertex {self.triangles.max()} of {len(self.positions)}")
-
-
-@dataclass(frozen=True, eq=False)
-class Instances:
-    """Every visible placing of a mesh. Instance i has the materials `slot_materials[first_slot[i]:first_slot[i + 1]]`.
-
-    names              n strings, the object's name, for messages
-    mesh               (n,) u4, index into Scene.meshes
-    world_from_object  (n, 4, 4) f8, metres
-    first_slot         (n + 1,) u4, ascending
-    slot_materials     (k,) u4, indices into Scene.materials
-    """
-
-    names: tuple[str, ...]
-    mesh: np.ndarray
-    world_from_object: np.ndarray
-    first_slot: np.ndarray
-    slot_materials: np.ndarray
-
-    def __post_init__(self) -> None:
-        n = len(self.names)
-        _check("Instances", "mesh", self.mesh, "u4", (n,))
-        _check("Instances", "world_from_object", self.world_from_object, "f8", (n, 4, 4))
-        _check("Instances", "first_slot", self.first_slot, "u4", (n + 1,))
-        _check("Instances", "slot_materials", self.slot_materials, "u4", (int(self.first_slot[-1]),))
-        if (np.diff(self.first_slot.astype("i8")) < 1).any():
-            raise SceneError("Instances: every instance needs a material slot")
-
-    def __len__(self) -> int:
-        return len(self.names)
-
-    @staticmethod
-    def empty() -> Instances:
-        """No instance at all."""
-        return Instances((), np.zeros(0, "u4"), np.zeros((0, 4, 4)), np.zeros(1, "u4"), np.zeros(0, "u4"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +40,7 @@ class Image:
 
     def __post_init__(self) -> None:
         dtype = "u1" if self.pixels.dtype == np.uint8 else "f4"
-        _check(f"Image '{self.name}'", "pixels", self.pixels, dtype, (None, None, 4))
+        check(f"Image '{self.name}'", "pixels", self.pixels, dtype, (None, None, 4))
         if self.is_srgb and dtype == "f4":
             raise SceneError(f"Image '{self.name}': float pixels are scene-linear and cannot be sRGB-encoded")
 
@@ -134,6 +66,8 @@ class Material:
     emission         radiance [W m^-2 sr^-1] that the surface sends out by itself, colour times strength
     specular_level   Principled's "Specular IOR Level"; 0.5 leaves the reflectance that `ior` gives
     normal_strength  Normal Map node's strength; the map is in tangent space
+    graph            the nodes that all these values were read from, as far as they can say it
+    pass_index       Blender's Pass Index
     """
 
     name: str
@@ -153,6 +87,13 @@ class Material:
     emission_texture: int = -1
     alpha_texture: int = -1
     normal_texture: int = -1
+    graph: Graph | None = None
+    pass_index: int = 0
+
+    @cached_property
+    def plain(self) -> Material:
+        """As `Scene.plain`."""
+        return replace(self, name="", graph=None, pass_index=0)
 
     @property
     def textures(self) -> tuple[int, ...]:
@@ -180,6 +121,7 @@ class Light:
     spot_blend   SPOT: 0 to 1, soft part of the cone's edge: `smoothstep(0, 1, (cos a - cos h) / (blend (1 - cos h)))`
     soft_falloff POINT, SPOT: not a sphere but a disk of `radius` that faces the point it lights, so that on the axis
                  E = I / (d^2 + radius^2); Blender's default
+    graph        the lamp's nodes, if it uses any
     """
 
     name: str
@@ -195,12 +137,18 @@ class Light:
     spot_blend: float = 0.0
     casts_shadow: bool = True
     soft_falloff: bool = False
+    graph: Graph | None = None
 
     def __post_init__(self) -> None:
         owner = f"Light '{self.name}'"
-        _check(owner, "world_from_light", self.world_from_light, "f8", (4, 4))
+        check(owner, "world_from_light", self.world_from_light, "f8", (4, 4))
         if not np.isfinite(self.emitted).all():
             raise SceneError(f"{owner}: its power is not finite")
+
+    @cached_property
+    def plain(self) -> Light:
+        """As `Scene.plain`."""
+        return with_fields(self, name="", graph=None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,14 +157,21 @@ class World:
 
     env_from_world  (3, 3) f8, from world directions to the image's own (Mapping node), where `environment.py` says what
                     they see; a rotation, unless the Mapping node mirrors or scales
+    graph           the world's nodes, if it uses any
     """
 
     radiance: Color = (0.0, 0.0, 0.0)
     image: int = -1
     env_from_world: np.ndarray = field(default_factory=lambda: np.eye(3))
+    graph: Graph | None = None
 
     def __post_init__(self) -> None:
-        _check("World", "env_from_world", self.env_from_world, "f8", (3, 3))
+        check("World", "env_from_world", self.env_from_world, "f8", (3, 3))
+
+    @cached_property
+    def plain(self) -> World:
+        """As `Scene.plain`."""
+        return self if self.graph is None else with_fields(self, graph=None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,7 +197,7 @@ class Camera:
     clip_end: float = 1000.0
 
     def __post_init__(self) -> None:
-        _check(f"Camera '{self.name}'", "world_from_camera", self.world_from_camera, "f8", (4, 4))
+        check(f"Camera '{self.name}'", "world_from_camera", self.world_from_camera, "f8", (4, 4))
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,8 +214,8 @@ class View:
     size: tuple[int, int]
 
     def __post_init__(self) -> None:
-        _check("View", "world_from_view", self.world_from_view, "f8", (4, 4))
-        _check("View", "clip_from_view", self.clip_from_view, "f8", (4, 4))
+        check("View", "world_from_view", self.world_from_view, "f8", (4, 4))
+        check("View", "clip_from_view", self.clip_from_view, "f8", (4, 4))
         if min(self.size) < 1:
             raise SceneError(f"View: the picture would be {self.size[0]}x{self.size[1]} pixels")
 
@@ -300,6 +255,16 @@ class Scene:
         """Triangles with instances counted as often as they are placed."""
         counts = np.array([len(m.triangles) for m in self.meshes] or [0], "i8")
         return int(counts[self.instances.mesh].sum()) if len(self.instances) else 0
+
+    @cached_property
+    def plain(self) -> Scene:
+        """The scene without what no picture depends on yet: node trees, other attributes than the active UV map,
+        numbers of instances, names. Renders are made of this, so that an edit of the rest makes nothing anew.
+        """
+        return with_fields(
+            self, meshes=tuple(m.plain for m in self.meshes), instances=self.instances.plain,
+            materials=tuple(m.plain for m in self.materials), lights=tuple(light.plain for light in self.lights),
+            world=self.world.plain)
 
     def bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """World-space box of all instances: (lowest, highest), each (3,) f8, metres; zeros for an empty scene."""

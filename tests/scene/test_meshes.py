@@ -79,7 +79,7 @@ def test_unit_normals_stay_as_they_are_and_others_become_unit():
 def test_uv_that_is_not_finite_is_zero():
     uvs = np.float32([[(0.25, 0.5), (np.nan, 0.5), (0.25, np.inf)]])
     mesh, (warning,) = make_mesh("Bust", CORNERS, [(0, 1, 2)], corner_uvs=uvs)
-    assert warning == "Mesh 'Bust': 1 triangles have UV coordinates that are not finite; zero is used"
+    assert warning == "Mesh 'Bust': 1 triangles have values of 'UVMap' that are not finite; zero is used"
     np.testing.assert_array_equal(mesh.corner_uvs[0], [(0.25, 0.5), (0, 0.5), (0.25, 0)])
 
 

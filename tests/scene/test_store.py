@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 from dataclasses import fields, is_dataclass
 
@@ -11,7 +12,17 @@ import pytest
 
 from svo_engine.errors import SceneError
 from svo_engine.scene import store
-from svo_engine.scene.types import Camera, Image, Instances, Light, Material, Mesh, Scene, Texture, World
+from svo_engine.scene.graph import Graph, Group, Link, Node
+from svo_engine.scene.types import Attribute, Camera, Image, Instances, Light, Material, Mesh, Scene, Texture, World
+
+GRAPH = Graph(
+    nodes=(Node("ShaderNodeMath", {"operation": "ADD", "use_clamp": True}, {"Value": 1.5, "Value_001": Link(1, "Fac")},
+                "Sum", {"Value": "Value"}),
+           Node("ShaderNodeGroup", {"node_tree": "Ramp", "image": None}, {"Vector": (1.0, 2.0, 3.0), "Shader": None})),
+    surface=Link(0, "Value"), displacement=Link(1, "Height"), aovs=(0,),
+    groups={"Ramp": Group((Node("ShaderNodeValToRGB", {"color_ramp": ("RGB", "LINEAR", "NEAR", ((0.0, 1.0),))}),),
+                          {"Fac": Link(0, "Color"), "Other": 0.5}, ())},
+    settings={"displacement_method": "BOTH"})
 
 
 @pytest.fixture
@@ -19,17 +30,26 @@ def scene():
     """A scene with something in every field."""
     rng = np.random.default_rng(0)
     mesh = Mesh("mesh", rng.random((4, 3)).astype("f4"), np.array([(0, 1, 2), (1, 2, 3)], "u4"),
-                rng.random((2, 3, 3)).astype("f4"), rng.random((2, 3, 2)).astype("f4"), np.array((0, 1), "u4"))
-    instances = Instances(("one", "\u017ctwo"), np.zeros(2, "u4"), rng.random((2, 4, 4)), np.array((0, 2, 3), "u4"),
-                          np.array((0, 1, 0), "u4"))
+                rng.random((2, 3, 3)).astype("f4"), np.array((0, 1), "u4"),
+                tuple(Attribute(f"of {domain}", domain, rng.random((n, width)).astype("f4"))
+                      for domain, n, width in (("POINT", 4, 1), ("FACE", 2, 3), ("CORNER", 6, 2))),
+                "of CORNER", "of FACE", (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (rng.random((4, 3)).astype("f4"),))
+    instances = Instances(
+        ("one", "\u017ctwo"), np.zeros(2, "u4"), rng.random((2, 4, 4)), np.array((0, 2, 3), "u4"),
+        np.array((0, 1, 0), "u4"), np.array((-5, 2**62), "i8"), rng.random(2).astype("f4"), np.array((3, -4), "i4"),
+        rng.random((2, 4)).astype("f4"), rng.random((2, 3)).astype("f4"), rng.random((2, 2)).astype("f4"),
+        np.array((63, 5), "u4"), np.array((1, 2**63), "u8"), np.array((2, 3), "u8"),
+        (Attribute("heat", "INSTANCE", np.ones((2, 1), "f4")),), (rng.random((2, 4, 4)),))
     return Scene(
         meshes=(mesh,), instances=instances,
-        materials=(Material("plain"), Material("rich", roughness=np.float32(0.3), base_color_texture=0)),
-        textures=(Texture(0, (1, 2, 3, 4, 5, 6), "CLIP", "Closest", 2),),
+        materials=(Material("plain"), Material("rich", roughness=np.float32(0.3), base_color_texture=0, graph=GRAPH,
+                                              pass_index=7)),
+        textures=(Texture(0, (1.0, 2.0, 3.0, 4.0, 5.0, 6.0), "CLIP", "Closest", 2),),
         images=(Image("bytes", rng.integers(0, 255, (2, 3, 4)).astype("u1"), True),
                 Image("floats", rng.random((2, 3, 4)).astype("f4"))),
-        lights=(Light("lamp", "SPOT", np.eye(4), (1.0, 2.0, 3.0), radius=0.1, soft_falloff=True),),
-        world=World((0.1, 0.2, 0.3), 1, rng.random((3, 3))), camera=Camera("camera", rng.random((4, 4)), (30, 20)),
+        lights=(Light("lamp", "SPOT", np.eye(4), (1.0, 2.0, 3.0), radius=0.1, soft_falloff=True, graph=GRAPH),),
+        world=World((0.1, 0.2, 0.3), 1, rng.random((3, 3)), GRAPH),
+        camera=Camera("camera", rng.random((4, 4)), (30, 20)),
         film_transparent=True, warnings=("one", "two"))
 
 
@@ -102,13 +122,55 @@ def test_missing_and_unwritable(scene, tmp_path):
         store.load(tmp_path)
 
 
-def test_other_format(scene, tmp_path, monkeypatch):
+@pytest.mark.parametrize(("number", "sentence"), [
+    (1, r"scene\.npz' was written by an older version \(format 1\); extract it again from its \.blend$"),
+    (99, r"scene\.npz' was written by a newer version \(format 99\); this one reads format 2$")])
+def test_other_format(scene, tmp_path, monkeypatch, number, sentence):
     path = tmp_path / "scene.npz"
-    monkeypatch.setattr(store, "FORMAT", 99)
+    monkeypatch.setattr(store, "FORMAT", number)
     store.save(scene, path)
     monkeypatch.undo()
-    with pytest.raises(SceneError, match=r"is a scene of format 99; this version reads 1$"):
+    with pytest.raises(SceneError, match=sentence):
         store.load(path)
+
+
+def saved_with(path, edit):
+    """The file at `path` with its header's scene changed by `edit`."""
+    with np.load(path) as data:
+        arrays = dict(data)
+    header = json.loads(str(arrays.pop("header")))
+    edit(header["scene"])
+    np.savez(path, header=np.array(json.dumps(header)), **arrays)
+
+
+@pytest.mark.parametrize(("edit", "sentence"), [
+    (lambda s: s["materials"][0].update(roughness="rough"), "scene/materials/0/roughness is of the wrong kind"),
+    (lambda s: s["materials"][0].update(base_color_texture=True), "base_color_texture is of the wrong kind"),
+    (lambda s: s["materials"][0].update(base_color=[1, 2]), "base_color is of the wrong kind"),
+    (lambda s: s["textures"][0].update(extension="FOLD"), "extension is of the wrong kind"),
+    (lambda s: s["meshes"][0].update(positions="elsewhere"), "positions is of the wrong kind"),
+    (lambda s: s["meshes"][0].pop("positions"), "scene/meshes/0/positions is missing"),
+    (lambda s: s["meshes"][0].update(hair=1), "scene/meshes/0/hair, which this version does not know"),
+    (lambda s: s["meshes"][0].update(uv_map="Gone"), "Mesh 'mesh': there is no attribute 'Gone'"),
+    (lambda s: s["materials"][1]["graph"].pop("nodes"), "a node tree is damaged"),
+    (lambda s: s["materials"][1]["graph"].update(aovs=[9]), "Graph: node 9 of 2 is named"),
+    (lambda s: s["materials"][1]["graph"]["ends"].update(surface={"link": ["0", "Value"]}), "a node tree is damaged"),
+    (lambda s: s["materials"][1]["graph"]["nodes"][0].pop(), "a node tree is damaged")])
+def test_wrong_values_are_named(scene, tmp_path, edit, sentence):
+    path = tmp_path / "scene.npz"
+    store.save(scene, path)
+    saved_with(path, edit)
+    with pytest.raises(SceneError, match=sentence):
+        store.load(path)
+
+
+def test_fields_that_a_file_lacks_take_their_defaults(scene, tmp_path):
+    path = tmp_path / "scene.npz"
+    store.save(scene, path)
+    saved_with(path, lambda s: (s["instances"].pop("visibility"), s["materials"][0].pop("pass_index")))
+    loaded = store.load(path)
+    assert loaded.instances.visibility.tolist() == [63, 63]
+    assert loaded.materials[0].pass_index == 0
 
 
 def test_contents_are_checked(scene, tmp_path):
