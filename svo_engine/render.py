@@ -84,7 +84,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
                          is_black=settings.view != "combined")
         frame = Frame(needs, film, denoiser, list(denoiser.limits), make_progress(scope, film, settings))
         targets = stage("targets", make_targets, view.size, n_kept=SIZES)
-        tracer, show = _method(stage, device, gpu_scene, view, settings, frame)
+        tracer, show = _method(stage, device, gpu_scene, targets, view, settings, frame)
         for sample in range(settings.samples):
             eye = film.eye = look(device, gpu_scene, view, targets, settings, sample, film.tiles, tracer)
             show(eye)
@@ -100,56 +100,47 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
 # How one sample is added to the film, by method and view, and the rays that find what pixels see, if rays do
 
 
-def _method(stage: Stage, device: Device, gpu_scene: GpuScene, view: View, settings: RenderSettings,
+def _method(stage: Stage, device: Device, gpu_scene: GpuScene, targets: Targets, view: View, settings: RenderSettings,
             frame: Frame) -> tuple[Tracer | None, Show]:
-    targets = stage("targets", make_targets, view.size, n_kept=SIZES)
+    film = frame.film
     if settings.view.startswith("voxel"):
-        return None, _voxel_view(stage, device, gpu_scene, view, settings, frame.film)
+        return None, _voxel_view(stage, device, gpu_scene, view, settings, film)
     if settings.method == "cones" and settings.view == "combined":
         parts = stage("parts", make_parts, view.size, 0, 0, frame.needs, n_kept=SIZES)
         lit = _lit(stage, gpu_scene, _voxels(stage, gpu_scene, settings), view, settings)
         device.profiler.counts["voxels"] = lit.voxels.n_voxels
         return None, _in_parts(
-            device, gpu_scene, targets, None, settings, frame.film, parts,
-            lambda eye, part: gather_cones(device, gpu_scene, lit, eye, parts, part, settings))
+            device, gpu_scene, targets, None, settings, parts,
+            lambda eye, part: gather_cones(device, gpu_scene, lit, eye, parts, part, settings),
+            lambda eye, part: resolve(device, gpu_scene, eye, parts, part, film))
     tracer = _tracer(stage, gpu_scene)
     lights = _lights(stage, gpu_scene)
     cache = frame.cache = _fitting_cache(stage, gpu_scene, tracer, lights, settings, frame.limits)
     if settings.view.startswith("cache"):
         parts = stage("parts", make_parts, view.size, 0, 0, frame.needs, n_kept=SIZES)
-        return None, _cache_view(device, gpu_scene, cache, targets, settings, frame.film, parts)
+        return None, _in_parts(device, gpu_scene, targets, None, settings, parts,
+                               lambda eye, part: show_surfels(device, cache, eye, parts, part, settings, film))
     device.profiler.counts.update({"nodes": cache.octree.n_nodes, "surfels": cache.octree.n_surfels, **lights.counts(),
                                    "octree bytes": cache.octree.n_bytes, "dense bytes": cache.octree.n_dense_bytes})
     parts = stage("parts", make_parts, view.size, settings.gather_rays * frame.needs.emission,
                   _n_kept_draws(frame.needs, lights), frame.needs, n_kept=SIZES)
     return tracer, _in_parts(
-        device, gpu_scene, targets, tracer, settings, frame.film, parts,
-        lambda _, part: gather_rays(device, gpu_scene, cache, tracer, lights, parts, part, settings))
+        device, gpu_scene, targets, tracer, settings, parts,
+        lambda _, part: gather_rays(device, gpu_scene, cache, tracer, lights, parts, part, settings),
+        lambda eye, part: resolve(device, gpu_scene, eye, parts, part, film))
 
 
 def _in_parts(device: Device, gpu_scene: GpuScene, targets: Targets, tracer: Tracer | None, settings: RenderSettings,
-              film: GpuFilm, parts: Parts, gather: Callable[[Eye, Part], None]) -> Show:
-    """A sample of the picture, as the architecture's picture shows it."""
+              parts: Parts, *ends: Callable[[Eye, Part], None]) -> Show:
+    """A sample, part by part: what pixels see and what that looks like, as the architecture's picture shows it, then
+    what `ends` make of it."""
 
     def show(eye: Eye) -> None:
         for part in parts:
             raster(device, gpu_scene, eye, targets, tracer, settings, parts, part)
             evaluate(device, gpu_scene, parts, part)
-            gather(eye, part)
-            resolve(device, gpu_scene, eye, parts, part, film)
-
-    return show
-
-
-def _cache_view(device: Device, gpu_scene: GpuScene, cache: LightCache, targets: Targets, settings: RenderSettings,
-                film: GpuFilm, parts: Parts) -> Show:
-    """The surfels of the light cache, drawn as they are."""
-
-    def show(eye: Eye) -> None:
-        for part in parts:
-            raster(device, gpu_scene, eye, targets, None, settings, parts, part)
-            evaluate(device, gpu_scene, parts, part)
-            show_surfels(device, cache, eye, parts, part, settings, film)
+            for end in ends:
+                end(eye, part)
 
     return show
 

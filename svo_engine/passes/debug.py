@@ -12,7 +12,7 @@ from ..gpu.scope import GpuScope
 from ..settings import RenderSettings
 from .cache import LightCache
 from .light import build_levels
-from .parts import Part, Parts
+from .parts import EYE, Part, Parts
 from .raster import Eye
 from .resolve import GpuFilm
 from .voxelize import Grid, Voxels
@@ -52,6 +52,6 @@ def show_voxels(device: Device, grid: Grid, values: Cube, eye: Eye, settings: Re
 def show_surfels(device: Device, cache: LightCache, eye: Eye, parts: Parts, part: Part, settings: RenderSettings,
                  film: GpuFilm) -> None:
     """Add one part of a sample to `film`: of each pixel's surface the surfel, its light or its albedo."""
-    device.dispatch(SURFELS, part.n, **cache.resources(), **eye.pixels(part), **parts.of(part, parts.eye),
+    device.dispatch(SURFELS, part.n, **cache.resources(), **eye.pixels(part), **parts.of(part, EYE),
                     **film.layers(), u_film=film.sums,
                     u_show_albedo=settings.view == "cache_albedo")

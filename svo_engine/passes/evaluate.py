@@ -9,7 +9,7 @@ from __future__ import annotations
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.program import Resources
-from .parts import Part, Parts
+from .parts import EYE, Part, Parts
 from .upload import GpuScene
 
 MATTE = Pass("evaluate/matte.comp.glsl")
@@ -20,7 +20,7 @@ ONCE = 0x7FFFFFFF  # an invocation for each slot, see bind/list.glsl
 
 def evaluate(device: Device, gpu_scene: GpuScene, parts: Parts, part: Part) -> None:
     """Fill in the points that the eye sees."""
-    common = {**gpu_scene.geometry, **parts.of(part, parts.eye), **all_slots(parts)}
+    common = {**gpu_scene.geometry, **parts.of(part, EYE), **all_slots(parts)}
     device.dispatch(MATTE, part.n, Materials=gpu_scene.materials["Materials"], **common)
     if gpu_scene.needs.principled:
         device.dispatch(PRINCIPLED, part.n, **gpu_scene.materials, **common, u_albedo=gpu_scene.table.table,

@@ -12,7 +12,7 @@ from .cache import LightCache
 from .evaluate import all_slots
 from .light import LitVoxels
 from .lights import Lights
-from .parts import Part, Parts
+from .parts import EYE, Part, Parts
 from .path import follow_paths
 from .raster import Eye
 from .tracer import Tracer
@@ -30,7 +30,7 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, eye: Eye, 
     grid = lit.voxels.grid
     device.dispatch(
         CONES, part.n, **gpu_scene.placing.instances, **gpu_scene.materials, **gpu_scene.world(), **eye.pixels(part),
-        **grid.uniforms(), **parts.of(part, parts.eye), Lights=gpu_scene.lamps.rows, u_albedo=gpu_scene.table.table,
+        **grid.uniforms(), **parts.of(part, EYE), Lights=gpu_scene.lamps.rows, u_albedo=gpu_scene.table.table,
         u_radiance=lit.radiance, u_n_lights=len(gpu_scene.scene.lights), u_has_light=gpu_scene.needs.light,
         u_has_gloss=gpu_scene.needs.gloss, u_gloss=parts.planes["gloss"], u_cone_offset=settings.cone_offset,
         u_cone_step=settings.cone_step, u_cone_distance=settings.cone_distance * grid.n, u_sample=eye.sample,
@@ -42,7 +42,7 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, eye: Eye, 
 def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: Tracer, lights: Lights, parts: Parts,
                 part: Part, settings: RenderSettings) -> None:
     """Fill in the light of one part by rays: diffuse light, then what mirrors and glass show."""
-    needs, wave = gpu_scene.needs, parts.of(part, parts.eye)
+    needs, wave = gpu_scene.needs, parts.of(part, EYE)
     n_rays = settings.gather_rays * needs.light
     if lights.has_emitters(needs):
         device.dispatch(DRAW, part.n, **gpu_scene.geometry, **gpu_scene.materials, **wave, **all_slots(parts),

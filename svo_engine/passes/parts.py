@@ -21,6 +21,7 @@ MOST_SLOTS = 1 << 19  # of a part: 800 by 600 pixels in one go
 MOST_SLOTS_OF_SOFTWARE = 1 << 14  # what a processor's caches hold
 PLANE = 16  # bytes a slot
 LIST_HEAD = 16  # bytes before the slots of a list, the number of slots first
+EYE = 0  # first plane of the points that the eye sees
 _SIZES = {name.partition("_")[0].lower(): n for name, n in layouts.CONSTANTS.items() if name.endswith("_PLANES")}
 _SET = _SIZES["hit"] + _SIZES["point"]
 
@@ -35,27 +36,21 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """Room for one part at a time of a picture of `size` pixels.
+    """Room for one part at a time of a picture.
 
-    eye, met  first planes of the points that the eye sees, and of those that paths meet
-    planes    the first plane of all else
-    lists     of slots: two that rounds of paths take in turns
+    n_slots  of the whole picture: its pixels in whole tiles
+    met      first plane of the points that paths meet
+    planes   the first plane of all else
+    lists    of slots: two that rounds of paths take in turns
     """
 
     scope: GpuScope
-    size: tuple[int, int]
+    n_slots: int
     capacity: int
     wave: Buffer
-    eye: int
     met: int
     planes: dict[str, int]
     lists: tuple[Buffer, Buffer]
-
-    @property
-    def n_slots(self) -> int:
-        """Of the whole picture: its pixels in whole tiles."""
-        width, height = self.size
-        return -(-width // 8) * -(-height // 8) * 64
 
     def __iter__(self) -> Iterator[Part]:
         """The parts one after another."""
@@ -79,7 +74,8 @@ def make_parts(device: Device, size: tuple[int, int], n_ends: int, n_draws: int,
         planes[name], first = first, first + n
     most = MOST_SLOTS_OF_SOFTWARE if device.profiler.is_software else MOST_SLOTS
     tiles = max(int(device.limits["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]) // (PLANE * first) // 64, 1)
-    n = min(-(-size[0] // 8) * -(-size[1] // 8) * 64, most, 64 * tiles)
+    n_slots = -(-size[0] // 8) * -(-size[1] // 8) * 64
+    n = min(n_slots, most, 64 * tiles)
     lists = [scope.buffer(label, LIST_HEAD + 4 * n * needs.gloss) for label in ("paths", "paths that go on")]
-    return Parts(scope, size, n, scope.buffer("wave", PLANE * first * n), 0, planes.pop("met"), planes,
+    return Parts(scope, n_slots, n, scope.buffer("wave", PLANE * first * n), planes.pop("met"), planes,
                  (lists[0], lists[1]))

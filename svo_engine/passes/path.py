@@ -15,7 +15,7 @@ from ..gpu.program import Resources
 from .cache import LightCache
 from .evaluate import ONCE, all_slots, evaluate_met
 from .lights import Lights
-from .parts import LIST_HEAD, Part, Parts
+from .parts import EYE, LIST_HEAD, Part, Parts
 from .tracer import Tracer
 from .upload import GpuScene
 
@@ -41,7 +41,7 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
                         u_round=n_legs, u_is_last=n_legs == most)
         return following
 
-    going, points = step(parts.eye, part.n, all_slots(parts), 0), parts.eye
+    going, points = step(EYE, part.n, all_slots(parts), 0), EYE
     with device.batch("path/rounds"):
         for n_legs in range(1, most + 1):
             n, slots = _listed(device, going, part.n)

@@ -16,7 +16,7 @@ from ..gpu.scope import GpuScope
 from ..gpu.texture import Texture
 from ..scene.types import View
 from ..settings import RenderSettings
-from .parts import Part, Parts
+from .parts import EYE, Part, Parts
 from .pixel_filter import jitter
 from .tracer import Tracer
 from .upload import GpuScene
@@ -105,7 +105,7 @@ def look(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, sett
 def raster(device: Device, gpu_scene: GpuScene, eye: Eye, targets: Targets, tracer: Tracer | None,
            settings: RenderSettings, parts: Parts, part: Part) -> None:
     """Fill the hits of one part with what its pixels see."""
-    common = {**eye.pixels(part), **parts.of(part, parts.eye), "u_tiles": eye.tiles, "u_sample": eye.sample,
+    common = {**eye.pixels(part), **parts.of(part, EYE), "u_tiles": eye.tiles, "u_sample": eye.sample,
               "u_n_samples": 1 << min(settings.samples - 1, MOST - 1).bit_length(), "u_seed": settings.seed}
     if eye.is_drawn:
         device.dispatch(HITS, part.n, **gpu_scene.geometry, **common, u_visibility=targets.visibility)

@@ -12,7 +12,7 @@ from ..gpu.passes import Pass
 from ..gpu.scope import GpuScope
 from ..gpu.texture import Layers, Texture
 from ..scene.types import View
-from .parts import Part, Parts
+from .parts import EYE, Part, Parts
 from .raster import Eye
 from .upload import GpuScene
 
@@ -75,7 +75,7 @@ def make_film(scope: GpuScope, view: View, planes: tuple[str, ...], centre: np.n
 
 def resolve(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part, film: GpuFilm) -> None:
     """Add one part of a sample to `film`."""
-    device.dispatch(ACCUMULATE, part.n, **gpu_scene.world(), **eye.pixels(part), **parts.of(part, parts.eye),
+    device.dispatch(ACCUMULATE, part.n, **gpu_scene.world(), **eye.pixels(part), **parts.of(part, EYE),
                     **film.layers(), u_gloss=parts.planes["gloss"], u_film=film.sums, u_n_planes=len(film.planes),
                     u_film_transparent=gpu_scene.scene.film_transparent, u_sample=film.n_samples,
                     u_has_lobes=gpu_scene.needs.gloss)

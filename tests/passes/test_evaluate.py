@@ -13,7 +13,7 @@ import pytest
 from svo_engine.gpu.device import Device
 from svo_engine.needs import Needs, needs_of
 from svo_engine.passes.evaluate import MATTE, PRINCIPLED, all_slots
-from svo_engine.passes.parts import Parts, make_parts
+from svo_engine.passes.parts import EYE, Parts, make_parts
 from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.scene import layouts
 from svo_engine.scene.types import Image, Material, Mesh, Scene, Texture
@@ -74,7 +74,7 @@ def hits(scene: Scene, seed: int = 1, **fixed: Any) -> np.ndarray:
 
 
 def run(device: Device, gpu_scene: GpuScene, parts: Parts, takes_all: bool) -> None:
-    common = {**gpu_scene.geometry, **parts.of(next(iter(parts)), parts.eye), **all_slots(parts)}
+    common = {**gpu_scene.geometry, **parts.of(next(iter(parts)), EYE), **all_slots(parts)}
     if not takes_all:
         device.dispatch(MATTE, N, Materials=gpu_scene.materials["Materials"], **common)
     device.dispatch(PRINCIPLED, N, **gpu_scene.materials, **common, u_albedo=gpu_scene.table.table,
