@@ -30,6 +30,9 @@ _ROWS: dict[str, tuple[str, tuple[int, ...], Any]] = {
     "generated": ("f4", (3,), 0), "uv": ("f4", (2,), 0), "visibility": ("u4", (), ALL_VISIBLE),
     "light_set": ("u8", (), 2**64 - 1), "shadow_set": ("u8", (), 2**64 - 1)}
 
+# Those that no material asks for
+_NOT_SHADED = "ids", "visibility", "light_set", "shadow_set"
+
 
 def _not_set() -> np.ndarray:
     return _NOT_SET
@@ -117,6 +120,11 @@ class Mesh:
         return np.zeros((len(self.triangles), 3, 2), "f4") if uv_map is None else uv_map.values.reshape(-1, 3, 2)
 
     @cached_property
+    def shaded(self) -> Mesh:
+        """As `Scene.plain` has it where materials may ask for all that there is."""
+        return with_fields(self, name="", motion=())
+
+    @cached_property
     def plain(self) -> Mesh:
         """As `Scene.plain`."""
         uv_map = self.attribute(self.uv_map)
@@ -186,6 +194,11 @@ class Instances:
     def empty() -> Instances:
         """No instance at all."""
         return Instances((), np.zeros(0, "u4"), np.zeros((0, 4, 4)), np.zeros(1, "u4"), np.zeros(0, "u4"))
+
+    @cached_property
+    def shaded(self) -> Instances:
+        """As `Mesh.shaded`."""
+        return with_fields(self, names=("",) * len(self), motion=(), **dict.fromkeys(_NOT_SHADED, _NOT_SET))
 
     @cached_property
     def plain(self) -> Instances:

@@ -63,11 +63,14 @@ class Texture:
 class Material:
     """The Principled BSDF's values. A texture (index into Scene.textures, -1: none) multiplies the value of its name.
 
+    Where they do not say all that the graph does, they stand in for it while that is compiled.
+
     emission         radiance [W m^-2 sr^-1] that the surface sends out by itself, colour times strength
     specular_level   Principled's "Specular IOR Level"; 0.5 leaves the reflectance that `ior` gives
     normal_strength  Normal Map node's strength; the map is in tangent space
-    graph            the nodes that all these values were read from, as far as they can say it
+    graph            the nodes that all these values were read from
     pass_index       Blender's Pass Index
+    is_exact         whether the values say all that the graph does
     """
 
     name: str
@@ -89,11 +92,12 @@ class Material:
     normal_texture: int = -1
     graph: Graph | None = None
     pass_index: int = 0
+    is_exact: bool = True
 
     @cached_property
     def plain(self) -> Material:
         """As `Scene.plain`."""
-        return replace(self, name="", graph=None, pass_index=0)
+        return replace(self, name="", graph=None, pass_index=0) if self.is_exact else replace(self, name="")
 
     @property
     def textures(self) -> tuple[int, ...]:
@@ -258,13 +262,26 @@ class Scene:
 
     @cached_property
     def plain(self) -> Scene:
-        """The scene without what no picture depends on yet: node trees, other attributes than the active UV map,
-        numbers of instances, names. Renders are made of this, so that an edit of the rest makes nothing anew.
+        """The scene without what no picture depends on: names, trees that the materials' values say all of, and where
+        no other material is shown, other attributes than the active UV map and numbers of instances. Renders are made
+        of this, so that an edit of the rest makes nothing anew.
         """
+        shaded = self._shaded
+        instances = self.instances.shaded if shaded else self.instances.plain
         return with_fields(
-            self, meshes=tuple(m.plain for m in self.meshes), instances=self.instances.plain,
-            materials=tuple(m.plain for m in self.materials), lights=tuple(light.plain for light in self.lights),
-            world=self.world.plain)
+            self, meshes=tuple(m.shaded if i in shaded else m.plain for i, m in enumerate(self.meshes)),
+            instances=instances, materials=tuple(m.plain for m in self.materials),
+            lights=tuple(light.plain for light in self.lights), world=self.world.plain)
+
+    @property
+    def _shaded(self) -> set[int]:
+        """The meshes that show a material whose tree says more than its values."""
+        inst = self.instances
+        is_exact = np.array([m.is_exact for m in self.materials], bool)
+        if is_exact.all() or not len(inst):
+            return set()
+        slots = np.logical_or.reduceat(~is_exact[inst.slot_materials], inst.first_slot[:-1].astype("i8"))
+        return set(inst.mesh[slots].tolist())
 
     def bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """World-space box of all instances: (lowest, highest), each (3,) f8, metres; zeros for an empty scene."""

@@ -23,10 +23,19 @@ def read(nodes, shader):
 
 
 def only_material(nodes, shader):
-    """That material, which must need no warning."""
+    """That material, of which the values must say all."""
     scene = read(nodes, shader)
     assert scene.warnings == ()
     found, = scene.materials
+    assert found.is_exact
+    return found
+
+
+def stand_in(nodes, shader):
+    """That material, of which the values must not say all; its tree does."""
+    found, = read(nodes, shader).materials
+    assert not found.is_exact
+    assert found.graph.surface is not None
     return found
 
 
@@ -37,8 +46,8 @@ def only_warning(scene):
 
 
 def assert_same(found, expected):
-    """Equal but for the 32-bit floats of Blender."""
-    for name, value in vars(replace(expected, graph=found.graph)).items():
+    """Equal but for the 32-bit floats of Blender, and for what the tree says more."""
+    for name, value in vars(replace(expected, graph=found.graph, is_exact=found.is_exact)).items():
         exact = isinstance(value, (str, int))
         assert getattr(found, name) == (value if exact else pytest.approx(value, abs=1e-6)), name
 
@@ -96,15 +105,13 @@ def test_texture_as_strength(empty, pixels):
     found = scene.materials[0]
     assert found.emission == (1, 0.5, 0)
     assert scene.textures[found.emission_texture].channel == 0
-    is_grey = pixels[0] == pixels[1]
-    assert scene.warnings == (() if is_grey else (
-        "Material 'Material': a colour as strength is not supported; only its red is used",))
+    assert found.is_exact == (pixels[0] == pixels[1])
 
 
-def test_two_textures_that_multiply_are_told(empty):
+def test_two_textures_that_multiply_are_not_exact(empty):
     nodes = material()
-    scene = read(nodes, nodes.new("Emission", Color=textured(nodes), Strength=textured(nodes, 0, 1, 0, 1)))
-    assert only_warning(scene) == "two textures that multiply are not supported; only that of the colour is used"
+    found = stand_in(nodes, nodes.new("Emission", Color=textured(nodes), Strength=textured(nodes, 0, 1, 0, 1)))
+    assert found.emission_texture >= 0
 
 
 def test_normal_map(empty):
@@ -121,24 +128,47 @@ def test_normal_map_without_a_texture_is_none(empty):
 
 
 @pytest.mark.parametrize("kind", ["Bump", "NormalMap"])
-def test_other_normals_are_told(empty, kind):
+def test_other_normals_are_not_exact(empty, kind):
     nodes = material()
     bumps = nodes.new(kind)
     if kind == "NormalMap":
         bumps.space = "OBJECT"
-    warning = only_warning(read(nodes, nodes.new("BsdfPrincipled", Normal=bumps)))
-    assert warning == f"node '{bumps.name}' ({bumps.bl_label}) is not supported for normals; the smooth normal is used"
+    assert stand_in(nodes, nodes.new("BsdfPrincipled", Normal=bumps)).normal_texture == -1
 
 
-@pytest.mark.parametrize(("kind", "inputs", "expected"), [
-    ("BsdfDiffuse", {}, {}),
-    ("BsdfAnisotropic", {"Roughness": 0.3}, {"metallic": 1, "roughness": 0.3, "specular_level": 0.5}),
-    ("BsdfGlass", {"Roughness": 0.3, "IOR": 1.3},
-     {"transmission": 1, "ior": 1.3, "roughness": 0.3, "specular_level": 0.5, "base_color": (0.04, 0.16, 0.36)})])
-def test_simple_shaders(empty, kind, inputs, expected):
+def test_constant_normal_map_is_not_exact(empty):
     nodes = material()
-    found = only_material(nodes, nodes.new(kind, Color=(0.2, 0.4, 0.6, 1), **inputs))
-    assert_same(found, replace(BLACK, **{"base_color": (0.2, 0.4, 0.6), **expected}))
+    bumps = nodes.new("NormalMap", Color=(0.6, 0.5, 1, 1))
+    assert stand_in(nodes, nodes.new("BsdfPrincipled", Normal=bumps)).normal_texture == -1
+
+
+def test_diffuse_shader(empty):
+    nodes = material()
+    found = only_material(nodes, nodes.new("BsdfDiffuse", Color=(0.2, 0.4, 0.6, 1)))
+    assert_same(found, replace(BLACK, base_color=(0.2, 0.4, 0.6)))
+
+
+@pytest.mark.parametrize("is_white", [True, False])
+@pytest.mark.parametrize(("kind", "inputs", "expected"), [
+    ("BsdfAnisotropic", {"Roughness": 0.3}, {"metallic": 1, "base_color": (0.2, 0.4, 0.6)}),
+    ("BsdfGlass", {"Roughness": 0.3, "IOR": 1.3}, {"transmission": 1, "ior": 1.3, "base_color": (0.04, 0.16, 0.36)})])
+def test_shaders_that_reflect(empty, kind, inputs, expected, is_white):
+    """Their colour is that of all angles, where the values reflect white at grazing ones: white is exact."""
+    nodes = material()
+    color = (1, 1, 1, 1) if is_white else (0.2, 0.4, 0.6, 1)
+    found = (only_material if is_white else stand_in)(nodes, nodes.new(kind, Color=color, **inputs))
+    white = {"base_color": (1, 1, 1)} if is_white else {}
+    assert_same(found, replace(BLACK, **{**expected, **white, "roughness": 0.3, "specular_level": 0.5}))
+
+
+@pytest.mark.parametrize("kind", ["BsdfPrincipled", "BsdfAnisotropic", "BsdfGlass"])
+def test_other_distributions_are_not_exact(empty, kind):
+    nodes = material()
+    shader = nodes.new(kind)
+    if kind != "BsdfPrincipled":
+        nodes.set(shader, "Color", (1, 1, 1, 1))
+    shader.distribution = "GGX"
+    stand_in(nodes, shader)
 
 
 @pytest.mark.skipif(not hasattr(bpy.types, "ShaderNodeBsdfMetallic"), reason="Blender 4.3 brought it")
@@ -161,10 +191,9 @@ def test_transparent(empty):
     assert_same(only_material(nodes, nodes.new("BsdfTransparent")), replace(BLACK, alpha=0))
 
 
-def test_coloured_transparency_is_told(empty):
+def test_coloured_transparency_is_not_exact(empty):
     nodes = material()
-    warning = only_warning(read(nodes, nodes.new("BsdfTransparent", Color=(1, 0, 0, 1))))
-    assert warning == "the colour of node 'Transparent BSDF' is left out; it lets all light through"
+    assert stand_in(nodes, nodes.new("BsdfTransparent", Color=(1, 0, 0, 1))).alpha == 0
 
 
 def mixed(nodes, first, second, factor):
@@ -203,18 +232,32 @@ def test_mix_that_is_all_one_shader(empty, factor):
     assert found.transmission == 1 - factor
 
 
-def test_mix_that_is_not_exact_is_told(empty):
+def test_mix_of_two_that_reflect_is_not_exact(empty):
     nodes = material()
-    scene = read(nodes, mixed(nodes, nodes.new("BsdfGlass"), nodes.new("BsdfPrincipled", Roughness=0.1), 0.7))
-    assert scene.materials[0].roughness == pytest.approx(0.1)
-    assert only_warning(scene) == "Mix Shader 'Mix Shader' cannot be drawn exactly; only one of its shaders is used"
+    found = stand_in(nodes, mixed(nodes, nodes.new("BsdfGlass"), nodes.new("BsdfPrincipled", Roughness=0.1), 0.7))
+    assert found.roughness == pytest.approx(0.1)
 
 
-def test_add_that_is_not_exact_is_told(empty):
+def test_sum_of_two_that_reflect_is_not_exact(empty):
     nodes = material()
-    scene = read(nodes, nodes.new("AddShader", Shader=nodes.new("BsdfGlass"), Shader_001=nodes.new("BsdfPrincipled")))
-    assert scene.materials[0].transmission == 1
-    assert only_warning(scene) == "Add Shader 'Add Shader' cannot be drawn exactly; only one of its shaders is used"
+    both = nodes.new("AddShader", Shader=nodes.new("BsdfGlass"), Shader_001=nodes.new("BsdfPrincipled"))
+    assert stand_in(nodes, both).transmission == 1
+
+
+def test_shader_that_many_show_is_read_once(empty):
+    """2^300 ways through it, and deeper than Python may call itself."""
+    nodes = material()
+    before = nodes.new("BsdfPrincipled", Roughness=0.1)
+    for _ in range(300):
+        before = mixed(nodes, before, before, 0.3)
+    stand_in(nodes, before)
+
+
+def test_colour_as_a_surface_shines(empty):
+    nodes = material()
+    color = nodes.new("RGB")
+    color.outputs[0].default_value = (0.1, 0.2, 0.3, 1)
+    assert_same(only_material(nodes, color), replace(BLACK, emission=(0.1, 0.2, 0.3)))
 
 
 def _add_emission(nodes):
@@ -332,61 +375,79 @@ def test_colour_as_a_number_is_its_luminance(empty, tmp_path):
     np.testing.assert_allclose(extracted().materials[0].emission, seen, rtol=1e-3)  # Blender's weights have 4 digits
 
 
-def test_unsupported_node_between_texture_and_colour(empty):
+def test_node_between_texture_and_colour(empty):
     nodes = material()
-    adjusted = nodes.new("HueSaturation", Color=textured(nodes))
-    scene = read(nodes, nodes.new("BsdfPrincipled", Base_Color=adjusted))
-    assert scene.materials[0].base_color_texture == 0
-    assert only_warning(scene) == (f"node '{adjusted.name}' ({adjusted.bl_label}) is not supported for Base Color; "
-                                   "its effect is left out")
+    found = stand_in(nodes, nodes.new("BsdfPrincipled", Base_Color=nodes.new("HueSaturation", Color=textured(nodes))))
+    assert found.base_color_texture == 0
 
 
-def test_unsupported_texture_is_the_mean_of_its_colours(empty):
+def test_stand_in_of_a_texture_is_the_mean_of_its_colours(empty):
     nodes = material()
     checker = nodes.new("TexChecker", Color1=(1, 0, 0, 1), Color2=(0, 0.5, 1, 1))
-    scene = read(nodes, nodes.new("BsdfPrincipled", Base_Color=checker))
-    assert scene.materials[0].base_color == (0.5, 0.25, 0.5)
-    assert "Checker Texture" in only_warning(scene)
+    assert stand_in(nodes, nodes.new("BsdfPrincipled", Base_Color=checker)).base_color == (0.5, 0.25, 0.5)
 
 
-def test_unsupported_number_is_the_constant_beside_the_socket(empty):
+def test_stand_in_of_a_ramp_is_its_mean(empty):
+    nodes = material()
+    ramp = nodes.new("ValToRGB", Fac=nodes.new("TexNoise"))
+    ramp.color_ramp.elements[0].color, ramp.color_ramp.elements[1].color = (1, 0, 0, 1), (0, 0.5, 1, 1)
+    ramp.color_ramp.elements[1].position = 0.5
+    found = stand_in(nodes, nodes.new("BsdfPrincipled", Base_Color=ramp))
+    assert found.base_color == pytest.approx((0.25, 0.375, 0.75), abs=0.02)
+
+
+def test_stand_in_of_a_number_is_the_constant_beside_the_socket(empty):
     nodes = material()
     shader = nodes.new("BsdfPrincipled", Roughness=0.3)
     nodes.set(shader, "Roughness", nodes.new("Math"))
-    scene = read(nodes, shader)
-    assert scene.materials[0].roughness == pytest.approx(0.3)
-    assert only_warning(scene) == "node 'Math' (Math) is not supported for Roughness; its effect is left out"
+    assert stand_in(nodes, shader).roughness == pytest.approx(0.3)
 
 
-def test_texture_where_none_can_be_is_told_and_not_read(empty):
+def test_texture_where_the_values_have_none(empty):
     nodes = material()
     shader = nodes.new("BsdfPrincipled", IOR=1.3)
     nodes.set(shader, "IOR", textured(nodes))
-    scene = read(nodes, shader)
-    assert scene.materials[0].ior == pytest.approx(1.3)
-    assert scene.images == ()
-    assert only_warning(scene) == (
-        "node 'Image Texture' (Image Texture) is not supported for IOR; its effect is left out")
+    assert stand_in(nodes, shader).ior == pytest.approx(1.3)
 
 
-def test_what_principled_has_and_we_have_not(empty):
+@pytest.mark.parametrize("socket", ["Coat Weight", "Subsurface Weight", "Sheen Weight", "Anisotropic",
+                                    "Diffuse Roughness", "Thin Film Thickness"])
+@pytest.mark.parametrize("is_linked", [True, False])
+def test_what_principled_has_more(empty, socket, is_linked):
     nodes = material()
-    scene = read(nodes, nodes.new("BsdfPrincipled", Coat_Weight=0.5, Subsurface_Weight=1.0))
-    assert only_warning(scene) == "Subsurface Weight, Coat Weight of node 'Principled BSDF' is left out"
+    shader = nodes.new("BsdfPrincipled")
+    nodes.set(shader, socket, nodes.new("Math") if is_linked else 0.5)
+    stand_in(nodes, shader)
 
 
-def test_unsupported_shader_is_diffuse(empty):
+def test_rough_diffuse_is_not_exact(empty):
     nodes = material()
-    scene = read(nodes, nodes.new("BsdfToon", Color=(0.2, 0.4, 0.6, 1)))
-    assert_same(scene.materials[0], replace(BLACK, base_color=(0.2, 0.4, 0.6)))
-    assert only_warning(scene) == "shader node 'Toon BSDF' (Toon BSDF) is not supported; it is drawn as a Diffuse BSDF"
+    stand_in(nodes, nodes.new("BsdfDiffuse", Roughness=0.5))
 
 
-@pytest.mark.parametrize("output", ["Volume", "Displacement"])
-def test_other_outputs_are_told(empty, output):
+def test_stand_in_of_a_shader_is_diffuse(empty):
     nodes = material()
-    nodes.show(nodes.new("VolumeScatter" if output == "Volume" else "Displacement"), output)
-    assert only_warning(read(nodes, nodes.new("BsdfDiffuse"))) == f"{output.lower()} is left out"
+    found = stand_in(nodes, nodes.new("BsdfToon", Color=(0.2, 0.4, 0.6, 1)))
+    assert_same(found, replace(BLACK, base_color=(0.2, 0.4, 0.6)))
+
+
+def test_displacement_is_not_exact(empty):
+    nodes = material()
+    nodes.show(nodes.new("Displacement"), "Displacement")
+    stand_in(nodes, nodes.new("BsdfDiffuse"))
+
+
+@pytest.mark.parametrize("is_alone", [True, False])
+def test_volume_is_told_and_alone_invisible(empty, is_alone):
+    nodes = material()
+    nodes.show(nodes.new("VolumeScatter"), "Volume")
+    if not is_alone:
+        nodes.show(nodes.new("BsdfDiffuse"))
+    plane(nodes.owner)
+    scene = extracted()
+    assert only_warning(scene) == "volume is left out"
+    assert scene.materials[0].is_exact
+    assert scene.materials[0].alpha == (0 if is_alone else 1)
 
 
 def test_output_that_is_for_cycles(empty):
@@ -400,7 +461,9 @@ def test_output_that_is_for_cycles(empty):
 
 def test_nothing_at_the_output_is_black(empty):
     plane(material().owner)
-    assert_same(extracted().materials[0], BLACK)
+    found = extracted().materials[0]
+    assert_same(found, BLACK)
+    assert found.is_exact
 
 
 @pytest.mark.skipif(bpy.app.version >= (5, 0, 0), reason="Blender 5 draws every material with nodes")

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from svo_engine.gpu.kept import _same
 from svo_engine.scene.graph import Graph, Node
@@ -43,6 +44,21 @@ def test_what_pictures_depend_on_stays():
     for name in ("mesh", "world_from_object", "first_slot", "slot_materials"):
         assert getattr(plain.instances, name) is getattr(scene.instances, name)
     assert len(plain.instances) == 1
+
+
+@pytest.mark.parametrize("inexact", [0, 1])
+def test_where_a_tree_says_more_it_stays_with_what_it_may_ask_for(inexact):
+    """Two quads of a material each; the first one has an attribute."""
+    quads = [scenes.quad(name, (0, 0, 0), (1, 0, 0), (0, 1, 0), uvs=True) for name in "AB"]
+    scene = with_all(scenes.scene(scenes.Thing(quads[0], scenes.RED), scenes.Thing(quads[1], scenes.GREEN)), "One")
+    materials = tuple(replace(m, is_exact=i != inexact) for i, m in enumerate(scene.materials))
+    plain = replace(scene, materials=materials).plain
+    for i, material in enumerate(materials):
+        said = (None, 0) if i != inexact else (material.graph, 3)
+        assert (plain.materials[i].graph, plain.materials[i].pass_index) == said
+    assert len(plain.meshes[0].attributes) == (2 if inexact == 0 else 1)
+    assert plain.instances.color is scene.instances.color
+    assert not plain.instances.ids.any()
 
 
 def test_it_is_made_once_for_each_record():

@@ -32,7 +32,7 @@ def _at(reader: Reader, port: Port, native: tuple[str, ...], is_texture: bool) -
     if node.bl_idname == "ShaderNodeUVMap" and "UV" in native:
         reader.uv_maps.add(node.uv_map)
     elif node.bl_idname != "ShaderNodeTexCoord" or port.socket.identifier not in native or node.object:
-        reader.warn(f"coordinates from output '{port.socket.name}' of node '{node.name}' are not supported; "
+        reader.guess(f"coordinates from output '{port.socket.name}' of node '{node.name}' are not supported; "
                     f"{native[0]} is used")
     return np.eye(4)[:3]
 

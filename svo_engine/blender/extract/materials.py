@@ -11,7 +11,7 @@ import bpy
 
 from ...scene.types import Material
 from .graphs import read_graph
-from .nodes import fed_output, tree_of
+from .nodes import Port, fed_output, tree_of
 from .reader import Reader
 from .surfaces import NOTHING, surface
 from .textures import Textures
@@ -25,6 +25,9 @@ class Collector(Protocol):
 
     def index(self, material: Any) -> int:
         """Where `material` (an evaluated datablock, or None for an empty slot) stands in `found`."""
+
+    def differ(self, index: int) -> None:
+        """Note that a mesh shows material `index` with another active UV map than it asks for."""
 
 
 class Materials:
@@ -50,6 +53,10 @@ class Materials:
             self.uv_maps.append(reader.uv_maps)
         return self._index[pointer]
 
+    def differ(self, index: int) -> None:
+        """As Collector has it."""
+        self.found[index] = replace(self.found[index], is_exact=False)
+
 
 def default_material() -> Material:
     """What Cycles gives to a face without material: a Diffuse BSDF, since Blender 5.0 a Principled BSDF, both grey."""
@@ -64,9 +71,16 @@ def _read(material: Any, reader: Reader) -> Material:
         r, g, b, _ = material.diffuse_color
         return Material(material.name, (r, g, b), material.roughness, material.metallic,
                         specular_level=material.specular_intensity, pass_index=material.pass_index)
-    for name in ("Volume", "Displacement"):
-        port = fed_output(tree, name)
-        if port is not None and not port.is_constant:
-            reader.warn(f"{name.lower()} is left out")
-    return replace(surface(reader, fed_output(tree, "Surface")), name=material.name,
-                   graph=read_graph(tree, material), pass_index=material.pass_index)
+    material_of_nodes = surface(reader, shown := fed_output(tree, "Surface"))
+    if _is_fed(fed_output(tree, "Volume")):
+        reader.warn("volume is left out")
+        if not _is_fed(shown):
+            material_of_nodes = replace(material_of_nodes, alpha=0.0)
+    if _is_fed(fed_output(tree, "Displacement")):
+        reader.guess("displacement is left out")
+    return replace(material_of_nodes, name=material.name, graph=read_graph(tree, material),
+                   pass_index=material.pass_index, is_exact=reader.is_exact)
+
+
+def _is_fed(port: Port | None) -> bool:
+    return port is not None and not port.is_constant

@@ -132,5 +132,6 @@ class Placing:
     def _check_uv_map(self, material: int, mesh: int) -> None:
         others = self._materials.uv_maps[material] - {self._uv_maps[mesh], ""}
         if others:
+            self._materials.differ(material)
             self._warn(f"Material '{self._materials.found[material].name}' asks for the UV map '{min(others)}'; "
                        f"'{self.meshes[mesh].name}' is drawn with its active one")

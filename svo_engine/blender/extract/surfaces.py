@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shader nodes as Principled values: each BSDF, and Mix and Add Shader where the result is exact."""
+"""Shader nodes as Principled values: each BSDF, and Mix and Add Shader. Where the values cannot say what the nodes do
+the reader is told, and they stand in for the compiled tree.
+"""
 
 from __future__ import annotations
 
@@ -8,35 +10,51 @@ from dataclasses import replace
 
 from ...scene.types import Color, Material
 from .nodes import Port, origin
-from .reader import WHITE, Reader, Value
+from .reader import DEEPEST, WHITE, Reader, Value
 
 _NO_LIGHT: Color = (0.0, 0.0, 0.0)
+
+# The colour of a normal map that changes nothing
+_FLAT: Color = (0.5, 0.5, 1.0)
 
 # Neither reflects nor shines; what an unlinked shader socket stands for
 NOTHING = Material("", base_color=_NO_LIGHT, specular_level=0.0, roughness=1.0)
 
-# Principled sockets that change the picture only when they are above 0, and that we leave out
+# Sockets that change the picture only when they are above 0, and that the values leave out
 _LEFT_OUT = ("Diffuse Roughness", "Subsurface Weight", "Anisotropic", "Coat Weight", "Sheen Weight",
-             "Thin Film Thickness")
+             "Thin Film Thickness", "Anisotropy")
 
 
 def surface(reader: Reader, port: Port | None) -> Material:
-    """The nameless material that the shader output `port` describes."""
+    """The nameless material that the shader output `port` describes. Many may show one, so each is read once."""
     if port is None or port.is_constant:
         return NOTHING
+    key = tuple(thing.as_pointer() for thing in (port.socket, *port.groups))
+    if key not in reader.surfaces:
+        if reader.depth >= DEEPEST:
+            reader.guess(f"more than {DEEPEST} shaders in a row are not supported; the first ones are left out")
+            return NOTHING
+        reader.depth += 1
+        reader.surfaces[key] = _read(reader, port)
+        reader.depth -= 1
+    return reader.surfaces[key]
+
+
+def _read(reader: Reader, port: Port) -> Material:
+    if port.socket.type != "SHADER":  # a colour or a number as a surface shines, as Cycles has it
+        value = reader.of(port)
+        return replace(NOTHING, emission=value.color, emission_texture=value.texture)
     make = _SHADERS.get(port.node.bl_idname)
     if make is None:
-        reader.warn(f"shader node '{port.node.name}' ({port.node.bl_label}) is not supported; "
-                    "it is drawn as a Diffuse BSDF")
+        reader.guess(f"shader node '{port.node.name}' ({port.node.bl_label}) is not supported; "
+                     "it is drawn as a Diffuse BSDF")
         make = _diffuse
     return make(reader, port)
 
 
 def _principled(reader: Reader, port: Port) -> Material:
     base, roughness, metallic, alpha = (reader.value(port, n) for n in ("Base Color", "Roughness", "Metallic", "Alpha"))
-    left_out = [n for n in _LEFT_OUT if (at := port.input(n)) and not _is_zero(at)]
-    if left_out:
-        reader.warn(f"{', '.join(left_out)} of node '{port.node.name}' is left out")
+    _look_for_more(reader, port, _LEFT_OUT)
     emission = _emitted(reader, port, "Emission Color", "Emission Strength")
     return replace(
         _with_normal(reader, port, Material("")), base_color=base.color, base_color_texture=base.texture,
@@ -48,16 +66,38 @@ def _principled(reader: Reader, port: Port) -> Material:
         transmission=_number(reader, port, "Transmission Weight"))
 
 
+def _look_for_more(reader: Reader, port: Port, sockets: tuple[str, ...]) -> None:
+    """Tell which of `sockets` have an effect that the values leave out, and which distribution."""
+    left_out = [n for n in sockets if (at := port.input(n)) and not _is_zero(at)]
+    if left_out:
+        reader.guess(f"{', '.join(left_out)} of node '{port.node.name}' is left out")
+    if getattr(port.node, "distribution", "MULTI_GGX") != "MULTI_GGX":
+        reader.guess(f"node '{port.node.name}' is drawn with the distribution Multiscatter GGX")
+
+
 def _diffuse(reader: Reader, port: Port) -> Material:
+    _look_for_more(reader, port, ("Roughness",))
     color = reader.value(port, "Color", 0.8)
     return replace(_with_normal(reader, port, NOTHING), base_color=color.color, base_color_texture=color.texture)
 
 
 def _glossy(reader: Reader, port: Port) -> Material:
-    return _metal(reader, port, reader.value(port, "Color"))
+    """The node has its colour at all angles, which the values have for white alone."""
+    _look_for_more(reader, port, _LEFT_OUT)
+    color = reader.value(port, "Color")
+    _look_for_tint(reader, port, color)
+    return _metal(reader, port, color)
+
+
+def _look_for_tint(reader: Reader, port: Port, color: Value) -> None:
+    if color != Value(WHITE):
+        reader.guess(f"reflections of node '{port.node.name}' do not have its colour at all angles")
 
 
 def _metallic(reader: Reader, port: Port) -> Material:
+    _look_for_more(reader, port, _LEFT_OUT)
+    if port.node.fresnel_type != "F82":
+        reader.guess(f"node '{port.node.name}' is drawn by its colours, not as a physical conductor")
     return replace(_metal(reader, port, reader.value(port, "Base Color")),
                    specular_tint=reader.constant(port, "Edge Tint", 1.0))
 
@@ -71,7 +111,9 @@ def _metal(reader: Reader, port: Port, base: Value) -> Material:
 
 def _glass(reader: Reader, port: Port) -> Material:
     """Light takes the node's colour at each interface, where Principled's takes the root of it."""
+    _look_for_more(reader, port, _LEFT_OUT)
     color = reader.value(port, "Color")
+    _look_for_tint(reader, port, color)
     if color.texture < 0:
         r, g, b = color.color
         color = Value((r * r, g * g, b * b))
@@ -80,7 +122,7 @@ def _glass(reader: Reader, port: Port) -> Material:
 
 def _transparent(reader: Reader, port: Port) -> Material:
     if reader.value(port, "Color").color != WHITE:
-        reader.warn(f"the colour of node '{port.node.name}' is left out; it lets all light through")
+        reader.guess(f"the colour of node '{port.node.name}' is left out; it lets all light through")
     return replace(NOTHING, alpha=0.0)
 
 
@@ -104,7 +146,7 @@ def _mix(reader: Reader, port: Port) -> Material:
     elif factor.texture < 0:
         exact = _sum(_scaled(first, 1 - weight), _scaled(second, weight))
     if exact is None:
-        reader.warn(f"Mix Shader '{port.node.name}' cannot be drawn exactly; only one of its shaders is used")
+        reader.guess(f"Mix Shader '{port.node.name}' cannot be drawn exactly; only one of its shaders is used")
     return exact or (second if weight > 0.5 else first)
 
 
@@ -112,7 +154,7 @@ def _add(reader: Reader, port: Port) -> Material:
     first, second = _input(reader, port, "Shader"), _input(reader, port, "Shader_001")
     exact = _sum(first, second)
     if exact is None:
-        reader.warn(f"Add Shader '{port.node.name}' cannot be drawn exactly; only one of its shaders is used")
+        reader.guess(f"Add Shader '{port.node.name}' cannot be drawn exactly; only one of its shaders is used")
     return exact or first
 
 
@@ -194,11 +236,14 @@ def _with_normal(reader: Reader, port: Port, material: Material) -> Material:
         return material
     node = before.node
     if node.bl_idname != "ShaderNodeNormalMap" or node.space != "TANGENT":
-        reader.warn(f"node '{node.name}' ({node.bl_label}) is not supported for normals; the smooth normal is used")
+        reader.guess(f"node '{node.name}' ({node.bl_label}) is not supported for normals; the smooth normal is used")
         return material
     if node.uv_map:
         reader.uv_maps.add(node.uv_map)
-    return replace(material, normal_texture=reader.value(before, "Color").texture,
+    color = reader.value(before, "Color")
+    if color.texture < 0 and color.color != _FLAT:
+        reader.guess(f"node '{node.name}' has no texture; the smooth normal is used")
+    return replace(material, normal_texture=color.texture,
                    normal_strength=_number(reader, before, "Strength"))
 
 

@@ -29,9 +29,9 @@ class Textures:
         if node.image is None:
             reader.warn(f"node '{node.name}' has no image; it is drawn in magenta")
         if node.projection != "FLAT":
-            reader.warn(f"node '{node.name}': {node.projection.lower()} projection is not supported; flat is used")
+            reader.guess(f"node '{node.name}': {node.projection.lower()} projection is not supported; flat is used")
         if node.interpolation not in ("Linear", "Closest"):
-            reader.warn(f"node '{node.name}': {node.interpolation} interpolation is not supported; Linear is used")
+            reader.guess(f"node '{node.name}': {node.interpolation} interpolation is not supported; Linear is used")
         matrix = lookup_from_native(reader, port, ("UV",))[:2, (0, 1, 3)]
         return self._place(Texture(
             self._images.index(node.image, has_straight_alpha=node.outputs["Alpha"].is_linked),

@@ -31,10 +31,10 @@ class _Environments:
         if node.image is None:
             reader.warn(f"node '{node.name}' has no image; it is drawn in magenta")
         if node.projection != "EQUIRECTANGULAR":
-            reader.warn(f"node '{node.name}': mirror ball projection is not supported; equirectangular is used")
+            reader.guess(f"node '{node.name}': mirror ball projection is not supported; equirectangular is used")
         matrix = lookup_from_native(reader, port, ("Generated", "Object"))
         if matrix[:, 3].any():
-            reader.warn(f"node '{node.name}': the image of a world can be turned, but not moved; Location is left out")
+            reader.guess(f"node '{node.name}': the image of a world can be turned, but not moved; Location is left out")
         self.found.append((self._images.index(node.image), _as_rotation(matrix[:, :3])))
         return len(self.found) - 1
 

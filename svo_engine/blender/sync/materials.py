@@ -44,11 +44,13 @@ class KeptMaterials:
         self._images = images
         self._read: dict[Uid, Read] = {}
         self._index: dict[Uid, int] = {}
+        self._differing: set[Uid] = set()
         self._warn: Callable[[str], object] = lambda _sentence: None
 
     def begin(self, warn: Callable[[str], object]) -> None:
         """Before a walk: none is used yet."""
         self.found, self.uv_maps, self.order, self._index, self._warn = [], [], [], {}, warn
+        self._differing = set()
 
     def end(self) -> None:
         """After a walk: what it has not used is given up."""
@@ -67,6 +69,9 @@ class KeptMaterials:
             self.found.append(read.what)
             self.uv_maps.append(set(read.uv_maps))
         return self._index[uid]
+
+    def differ(self, index: int) -> None:
+        self._differing.add(self.order[index])
 
     def forget(self) -> None:
         """Have all read again at the next walk."""
@@ -92,7 +97,7 @@ class KeptMaterials:
 
     def used(self) -> list[Read]:
         """All that the last walk has found, in its order."""
-        return [self._read[uid] for uid in self.order]
+        return [_differing(self._read[uid]) if uid in self._differing else self._read[uid] for uid in self.order]
 
     def _read_alone(self, material: Any) -> Read:
         self.n_read += 1
@@ -102,6 +107,10 @@ class KeptMaterials:
         materials.index(material)
         return Read(materials.found[0], tuple(textures.found), tuple(images.found), frozenset(images.uids),
                     frozenset(materials.uv_maps[0]), tuple(notes))
+
+
+def _differing(read: Read) -> Read:
+    return replace(read, what=replace(read.what, is_exact=False))
 
 
 class _Noted(Images):
