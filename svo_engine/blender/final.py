@@ -14,7 +14,7 @@ import numpy as np
 from ..scene.camera import make_view
 from ..scene.types import Scene, View
 from ..settings import RenderSettings
-from . import present, session
+from . import present, session, told
 from .extract import border, extract
 from .extract.camera import read_camera
 from .properties import settings_of
@@ -116,5 +116,6 @@ def _render_view(engine: bpy.types.RenderEngine, frame: Frame, name: str, view: 
         engine.end_result(result, cancel=film is None)
     if film is not None and not engine.is_preview:
         session.keep_stats(film, {"extract": frame.extract_ms, "hand over": hand_over_ms})
+        told.keep(told.sentences_of(frame.scene, film))
         for limit in film.stats.get("limits", ()):
             engine.report({"WARNING"}, limit)

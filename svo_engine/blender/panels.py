@@ -9,7 +9,7 @@ import bpy
 from bl_ui import properties_render
 
 from ..settings import specs
-from . import host_panels, sampling_panels
+from . import host_panels, material_panels, sampling_panels
 from .panel_base import CLOSED, ENGINE, RenderPanel
 
 _OF_LIT_VOXELS = {"injection_ambient", "injection_specular", "injection_shininess"}
@@ -192,7 +192,8 @@ class SVO_PT_viewport_lighting(bpy.types.Panel):
 
 _CLASSES = (*sampling_panels.CLASSES, SVO_PT_rays, SVO_PT_voxel_grid, SVO_PT_cones, SVO_PT_light_injection,
             SVO_PT_simplify, SVO_PT_simplify_viewport, SVO_PT_simplify_render, SVO_PT_film, SVO_PT_debug,
-            SVO_PT_comparison, SVO_PT_light_beam, SVO_PT_light_shadow, SVO_PT_viewport_lighting)
+            SVO_PT_comparison, SVO_PT_light_beam, SVO_PT_light_shadow, SVO_PT_viewport_lighting,
+            *material_panels.CLASSES)
 
 
 def register() -> None:

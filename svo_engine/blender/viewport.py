@@ -12,7 +12,7 @@ import bpy
 
 from ..film import Film
 from ..scene.types import Scene
-from . import present, session
+from . import present, session, told
 from .properties import settings_of
 from .sync import Sync, keep_picture
 from .viewport_view import Rect, view_of
@@ -69,6 +69,8 @@ class Viewport:
         if self._worker.shown is not None:
             job, film = self._worker.shown
             self.paint(engine, scene, film, job.rect)
+            if told.keep(told.sentences_of(job.scene, film)):
+                told.redraw_panels(context.screen)
 
     def paint(self, engine: bpy.types.RenderEngine, scene: bpy.types.Scene, film: Film, rect: Rect) -> None:
         """Show a film over `rect` of the region."""
@@ -84,8 +86,7 @@ class Viewport:
         if self._worker.shown is None:
             return "", "Preparing"
         job, film = self._worker.shown
-        told = (*job.scene.warnings, *film.stats.get("limits", ()))
-        return next(iter(told), ""), f"Sample {film.n_samples}/{job.settings.samples}"
+        return next(iter(told.sentences_of(job.scene, film)), ""), f"Sample {film.n_samples}/{job.settings.samples}"
 
     @property
     def is_finished(self) -> bool:

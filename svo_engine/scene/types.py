@@ -96,8 +96,8 @@ class Material:
 
     @cached_property
     def plain(self) -> Material:
-        """As `Scene.plain`."""
-        return replace(self, name="", graph=None, pass_index=0) if self.is_exact else replace(self, name="")
+        """As `Scene.plain`. A name stays with its tree, for what is told of that."""
+        return replace(self, name="", graph=None, pass_index=0) if self.is_exact else self
 
     @property
     def textures(self) -> tuple[int, ...]:
@@ -262,7 +262,7 @@ class Scene:
 
     @cached_property
     def plain(self) -> Scene:
-        """The scene without what no picture depends on: names, trees that the materials' values say all of, and where
+        """The scene without what no picture depends on: names, trees of which the materials' values say all, and where
         no other material is shown, other attributes than the active UV map and numbers of instances. Renders are made
         of this, so that an edit of the rest makes nothing anew.
         """

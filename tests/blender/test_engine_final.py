@@ -11,7 +11,7 @@ import numpy as np
 import OpenEXR
 import pytest
 
-from svo_engine.blender import engine, final, session
+from svo_engine.blender import engine, final, session, told
 from svo_engine.errors import GpuError, SceneError
 from tests.blender.fake_session import FakeSession, gradient
 
@@ -236,6 +236,7 @@ def test_warnings_of_the_extraction_are_reported(scene, monkeypatch, capfd):
     monkeypatch.setattr(final.Sync, "read", lambda sync, depsgraph: replace(real(sync, depsgraph), warnings=warnings))
     render(scene)
     assert "Warning: Image 'wood' is missing" in capfd.readouterr().out
+    assert not told.keep(warnings)  # for the panels
 
 
 class Pretending:

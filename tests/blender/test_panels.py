@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 
-from svo_engine.blender import panels
+from svo_engine.blender import material_panels, panels, told
 from svo_engine.blender.properties import defaults, settings_of
 from svo_engine.settings import RenderSettings, specs
 
@@ -35,12 +35,17 @@ class Layout:
     def operator(self, name, **_options):
         self.shown.append(name)
 
+    def label(self, text, icon):
+        self.shown.append((text, icon))
+
     def __getattr__(self, _name):
         return lambda *_args, **_options: self
 
 
 def context_of(scene, engine="SVO_ENGINE", kind_of_light="AREA"):
     return SimpleNamespace(scene=scene, engine=engine, light=SimpleNamespace(type=kind_of_light),
+                           material=SimpleNamespace(name="Wood"), region=SimpleNamespace(width=300),
+                           preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
                            space_data=SimpleNamespace(shading=SimpleNamespace(type="RENDERED")))
 
 
@@ -147,6 +152,14 @@ def test_light_panels_have_what_eevees_lack(scene):
     assert shown_by(panels.SVO_PT_light_beam, context_of(scene)) == ["spread"]
     assert shown_by(panels.SVO_PT_light_beam, context_of(scene, kind_of_light="SPOT")) == []
     assert shown_by(panels.SVO_PT_light_shadow, context_of(scene)) == ["use_shadow"]
+
+
+def test_material_panel_has_what_was_told_of_the_material(scene):
+    told.keep(("Material 'Wooden': volume is left out",))
+    assert shown_by(material_panels.SVO_PT_material_notes, context_of(scene)) == []
+    assert told.keep(("Light 'Wood': a", "Material 'Wood': volume is left out", "Material 'Wood': " + "long " * 9))
+    assert shown_by(material_panels.SVO_PT_material_notes, context_of(scene)) == [
+        ("volume is left out", "ERROR"), ("long long long long long long long", "ERROR"), ("long long", "BLANK1")]
 
 
 def test_comparison_has_its_button(scene):
