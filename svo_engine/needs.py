@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .nodes.compile import Compiled
 from .scene.types import Material, Scene
 from .settings import RenderSettings
 
@@ -63,20 +64,24 @@ _REASONS = {
 }
 
 
-def needs_of(scene: Scene, settings: RenderSettings) -> Needs:
-    """Look at the materials that instances name, the lamps and the world."""
+def needs_of(scene: Scene, settings: RenderSettings, compiled: Compiled | None = None) -> Needs:
+    """Look at the materials that instances name, by their compiled trees if they have some, the lamps and the world."""
     if not settings.skip_unneeded:
         return Needs(light=True, lamps=True, emission=True, world=True, principled=True, textures=True, alpha=True,
                      gloss=True, glass=True, path_vertices=LONGEST_PATH, skips=False)
-    used = [scene.materials[i] for i in np.unique(scene.instances.slot_materials)]
+    numbers = np.unique(scene.instances.slot_materials)
+    trees = [t for i in numbers if compiled and (t := compiled.traits[i])]
+    used = [scene.materials[i] for i in numbers if not (compiled and compiled.traits[i])]
     lamps = any(max(light.emitted) > 0 for light in scene.lights)
-    emission, world = any(max(m.emission) > 0 for m in used), max(scene.world.radiance) > 0
+    emission = any(max(m.emission) > 0 for m in used) or any(t.emits for t in trees)
+    world = max(scene.world.radiance) > 0
     return Needs(
         light=lamps or emission or world, lamps=lamps, emission=emission, world=world,
-        principled=any(not is_matte(m) for m in used), textures=any(max(m.textures) >= 0 for m in used),
-        alpha=any(has_alpha(m) for m in used), gloss=any(is_glossy(m) for m in used),
-        glass=any(m.transmission > 0 for m in used),
-        path_vertices=LONGEST_PATH if any(is_mirror(m) for m in used) else 2, skips=True)
+        principled=any(not is_matte(m) for m in used), textures=bool(trees) or any(max(m.textures) >= 0 for m in used),
+        alpha=any(has_alpha(m) for m in used), gloss=any(is_glossy(m) for m in used) or any(t.mirrors for t in trees),
+        glass=any(m.transmission > 0 for m in used) or any(t.transmits for t in trees),
+        path_vertices=LONGEST_PATH if any(is_mirror(m) for m in used) or any(t.mirrors for t in trees) else 2,
+        skips=True)
 
 
 def is_glossy(material: Material) -> bool:

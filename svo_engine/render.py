@@ -35,7 +35,7 @@ from .passes.programs import all_programs, programs_for
 from .passes.raster import Eye, Targets, look, make_targets, raster
 from .passes.resolve import GpuFilm, make_film, resolve
 from .passes.tracer import Tracer, make_rest, tracer_of
-from .passes.upload import GpuScene, assemble
+from .passes.upload import GpuScene, assemble, trees_of
 from .passes.voxelize import Voxels, voxelize
 from .scene.types import Scene, View
 from .settings import RenderSettings
@@ -73,11 +73,14 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     sums = device.profiler.reset()
     with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
-            needs = needs_of(scene, settings)
+            trees = trees_of(scene, stage)
+            device.programs.begin(trees.variants)
+            needs = needs_of(scene, settings, trees.compiled)
             is_software = device.profiler.is_software
             programs = programs_for(needs, settings, wanted(settings), is_software)
             device.prepare_frame(programs, all_programs(is_software))
-            gpu_scene = assemble(scope, scene, needs, stage)
+            device.prepare(trees.variants)
+            gpu_scene = assemble(scope, scene, needs, trees, stage)
         denoiser = stage("denoiser", make_denoiser, view.size, wanted(settings), settings.denoising_quality,
                          not needs.alpha, n_kept=SIZES)
         film = make_film(scope, view, planes_for(needs, settings, denoiser.name), gpu_scene.centre_ws,
@@ -126,7 +129,7 @@ def _method(stage: Stage, device: Device, gpu_scene: GpuScene, targets: Targets,
                   _n_kept_draws(frame.needs, lights), frame.needs, n_kept=SIZES)
     return tracer, _in_parts(
         device, gpu_scene, targets, tracer, settings, parts,
-        lambda _, part: gather_rays(device, gpu_scene, cache, tracer, lights, parts, part, settings),
+        lambda eye, part: gather_rays(device, gpu_scene, cache, tracer, lights, eye, parts, part, settings),
         lambda eye, part: resolve(device, gpu_scene, eye, parts, part, film))
 
 
@@ -138,7 +141,7 @@ def _in_parts(device: Device, gpu_scene: GpuScene, targets: Targets, tracer: Tra
     def show(eye: Eye) -> None:
         for part in parts:
             raster(device, gpu_scene, eye, targets, tracer, settings, parts, part)
-            evaluate(device, gpu_scene, parts, part)
+            evaluate(device, gpu_scene, eye, parts, part)
             for end in ends:
                 end(eye, part)
 

@@ -70,7 +70,7 @@ def _source(result: str, base: str, expression: str, includes: Sequence[str], pr
         f"    result[i_row] = {widened};", "}"]
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
-        for shared in ("lib", "bind"):
+        for shared in ("lib", "bind", "nodes"):
             (root / shared).symlink_to(glsl.SHADER_DIR / shared)
         (root / "test.comp.glsl").write_text("\n".join(lines) + "\n")
         return glsl.compose("test.comp.glsl", constants, root)

@@ -8,6 +8,7 @@ layout(std430) readonly buffer List { uint list[]; };  // the number of slots, t
 
 uniform bool u_is_listed;
 uniform uint u_step;       // to an invocation's next index; ONCE: it has one alone
+uniform uint u_n_all;      // slots, where they are not listed
 
 const uint LIST_HEAD = 4u;
 const uint ONCE = 0x7fffffffu;
@@ -15,7 +16,7 @@ const uint ONCE = 0x7fffffffu;
 // The index after the last one.
 uint n_slots()
 {
-    uint end = u_is_listed ? list[0] : u_end;
+    uint end = u_is_listed ? list[0] : u_n_all;
     return u_step == ONCE ? min(end, u_end) : end;
 }
 

@@ -27,11 +27,22 @@ bool is_surface(Hit hit)
     return hit.instance < HIT_DONE;
 }
 
-// Fill in one slot, if its material names this program.
+// Whether this program fills in the slot.
+bool is_ours(uint slot);
+
+// Fill it in.
 void evaluate(uint slot);
 
+// Slots are looked for first, and then filled in by all together: what nobody has is not computed.
 void main()
 {
-    for (uint i = u_first + gl_GlobalInvocationID.x; i < n_slots(); i += u_step)
+    uint i = u_first + gl_GlobalInvocationID.x, n = n_slots();
+    while (true) {
+        while (i < n && !is_ours(slot_of(i)))
+            i += u_step;
+        if (i >= n)
+            break;
         evaluate(slot_of(i));
+        i += u_step;
+    }
 }

@@ -8,6 +8,12 @@
 #include "bind/material_rows.glsl"
 #include "evaluate/hit.glsl"
 
+bool is_ours(uint slot)
+{
+    Hit hit = get_hit(u_set, slot);
+    return !is_surface(hit) || materials[material_of(hit.instance, hit.triangle)].program == PROGRAM_MATTE;
+}
+
 void evaluate(uint slot)
 {
     Hit hit = get_hit(u_set, slot);
@@ -16,8 +22,6 @@ void evaluate(uint slot)
         return;
     }
     Material m = materials[material_of(hit.instance, hit.triangle)];
-    if (m.program != PROGRAM_MATTE)
-        return;
     Seen seen = seen_at(hit.instance, hit.triangle, hit.bary, -hit.direction);
     Point p = point_of(hit, seen.surface, facing(seen.surface.normal, -hit.direction));
     p.diffuse = max(m.base_color, 0.0);

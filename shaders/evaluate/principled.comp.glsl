@@ -8,7 +8,7 @@
 #include "bind/principled.glsl"
 #include "evaluate/hit.glsl"
 
-uniform bool u_takes_all;   // whether it fills in all points, and no other program is run
+uniform bool u_takes_all;   // whether it fills in all points but those of trees
 
 const float ROUGH = 0.25;   // alpha from which a met surface mirrors what arrives from everywhere, not what one ray finds
 
@@ -19,17 +19,23 @@ uint kind_of(Bsdf b)
          | (has_glass && is_bending(b) ? POINT_BENDING : 0u) | (b.alpha >= ROUGH && !has_glass ? POINT_ROUGH : 0u);
 }
 
+bool is_ours(uint slot)
+{
+    Hit hit = get_hit(u_set, slot);
+    if (!is_surface(hit))
+        return u_takes_all;
+    uint program = materials[material_of(hit.instance, hit.triangle)].program;
+    return program == PROGRAM_PRINCIPLED || (u_takes_all && program < PROGRAM_TREE);
+}
+
 void evaluate(uint slot)
 {
     Hit hit = get_hit(u_set, slot);
     if (!is_surface(hit)) {
-        if (u_takes_all)
-            put_point(u_set, slot, no_point(hit));
+        put_point(u_set, slot, no_point(hit));
         return;
     }
     Material m = materials[material_of(hit.instance, hit.triangle)];
-    if (m.program != PROGRAM_PRINCIPLED && !u_takes_all)
-        return;
     vec3 wo = -hit.direction;
     Seen seen = seen_at(hit.instance, hit.triangle, hit.bary, wo);
     add_uv(seen, hit.instance, hit.triangle, hit.bary);

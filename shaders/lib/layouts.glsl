@@ -20,6 +20,14 @@ const uint BVH_HEIGHT_BITS = 6u;
 const uint HIT_DONE = 4294967294u;
 const uint PROGRAM_MATTE = 0u;
 const uint PROGRAM_PRINCIPLED = 1u;
+const uint PROGRAM_TREE = 2u;
+const uint RAY_CAMERA = 1u;
+const uint RAY_DIFFUSE = 2u;
+const uint RAY_GLOSSY = 4u;
+const uint RAY_TRANSMISSION = 8u;
+const uint RAY_SHADOW = 16u;
+const uint RAY_REFLECTION = 32u;
+const uint RAY_SINGULAR = 64u;
 const uint POINT_SURFACE = 1u;
 const uint POINT_LOBES = 2u;
 const uint POINT_SMOOTH = 4u;
@@ -64,6 +72,7 @@ struct Material {
     int alpha_texture;
     int normal_texture;
     uint program;
+    uint first_value;
 };
 
 struct Opacity {

@@ -187,7 +187,7 @@ class Device:
 
     def has_rehearsed(self, pass_: Pass, constants: Constants) -> bool:
         """Whether nothing is left to be compiled for a pass."""
-        key = pass_.shaders, frozenset(constants.items())
+        key = pass_.key, frozenset(constants.items())
         return key in self._run_once if self.profiler.is_software else self.programs.find(pass_, constants) is not None
 
     def rehearse(self, pass_: Pass, constants: Constants) -> None:
@@ -199,7 +199,7 @@ class Device:
         program = self.programs.find(pass_, constants)
         if not self.profiler.is_software or program is None:
             return
-        self._run_once.add((pass_.shaders, frozenset(constants.items())))
+        self._run_once.add((pass_.key, frozenset(constants.items())))
         if len(pass_.shaders) > 1:  # which draws
             return
         with self.scope() as scope:
@@ -224,7 +224,7 @@ class Device:
     def _bound(self, pass_: Pass, constants: Constants | None, resources: Resources) -> Program:
         """The program of this variant, compiled if it is not there, with all that it uses."""
         program = self.programs.find(pass_, constants or {})
-        self._run_once.add((pass_.shaders, frozenset((constants or {}).items())))
+        self._run_once.add((pass_.key, frozenset((constants or {}).items())))
         if program is None:
             self.prepare([(pass_, constants or {})])
             program = self.programs.find(pass_, constants or {})

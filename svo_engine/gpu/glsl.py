@@ -73,10 +73,10 @@ class Source:
 
 
 def compose(path: str, constants: Mapping[str, bool | int | float] | None = None,
-            root: Path = SHADER_DIR) -> Source:
+            root: Path = SHADER_DIR, texts: Mapping[str, str] | None = None) -> Source:
     """The shader at `path` below `root` with its includes pasted and `constants` set.
 
-    ShaderError if a file is missing.
+    texts: what stands for the files of those names. ShaderError if a file is missing.
     """
     lines: list[str] = ["#version 430"]
     origin: list[tuple[str, int]] = [(path, 1)]
@@ -85,10 +85,12 @@ def compose(path: str, constants: Mapping[str, bool | int | float] | None = None
 
     def paste(name: str, asked: str) -> None:
         seen.add(name)
-        try:
-            text = (root / name).read_text(encoding="ascii")
-        except OSError:
-            raise ShaderError(f"{asked}: there is no shaders/{name}") from None
+        text = texts.get(name) if texts else None
+        if text is None:
+            try:
+                text = (root / name).read_text(encoding="ascii")
+            except OSError:
+                raise ShaderError(f"{asked}: there is no shaders/{name}") from None
         for number, line in enumerate(text.splitlines(), 1):
             if include := _INCLUDE.match(line):
                 if include[1] not in seen:

@@ -92,12 +92,12 @@ class Programs:
 
 
 def _key(pass_: Pass, constants: Constants) -> _Key:
-    return pass_.shaders, frozenset(constants.items())
+    return pass_.key, frozenset(constants.items())
 
 
 def _sources(pass_: Pass, constants: Constants) -> list[glsl.Source]:
     """The shaders of this variant. ShaderError if none of them has a constant that was given."""
-    sources = [glsl.compose(path, constants) for path in pass_.shaders]
+    sources = [glsl.compose(path, constants, texts=pass_.texts) for path in pass_.shaders]
     if unset := frozenset.intersection(*(source.unset for source in sources)):
         raise ShaderError(f"shaders/{sources[0].path}: no constant named {', '.join(sorted(unset))}")
     return sources

@@ -9,33 +9,57 @@ from __future__ import annotations
 from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.program import Resources
+from ..scene.layouts import CONSTANTS
 from .parts import EYE, Part, Parts
+from .raster import Eye
 from .upload import GpuScene
 
 MATTE = Pass("evaluate/matte.comp.glsl")
 PRINCIPLED = Pass("evaluate/principled.comp.glsl")
 
 ONCE = 0x7FFFFFFF  # an invocation for each slot, see bind/list.glsl
+BUSY = 1 << 17  # invocations that keep a graphics card busy
+SHARE = 16  # slots of an invocation that looks for those of one structure, where the processor renders
 
 
-def evaluate(device: Device, gpu_scene: GpuScene, parts: Parts, part: Part) -> None:
+def evaluate(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part) -> None:
     """Fill in the points that the eye sees."""
-    common = {**gpu_scene.geometry, **parts.of(part, EYE), **all_slots(parts)}
+    slots = all_slots(parts, part)
+    common = {**gpu_scene.geometry, **parts.of(part, EYE), **slots}
     device.dispatch(MATTE, part.n, Materials=gpu_scene.materials["Materials"], **common)
     if gpu_scene.needs.principled:
         device.dispatch(PRINCIPLED, part.n, **gpu_scene.materials, **common, u_albedo=gpu_scene.table.table,
                         u_takes_all=False)
+    _evaluate_trees(device, gpu_scene, eye, parts.of(part, EYE), part.n, slots, CONSTANTS["RAY_CAMERA"], 0)
 
 
-def evaluate_met(device: Device, gpu_scene: GpuScene, parts: Parts, part: Part, n: int, slots: Resources) -> None:
+def evaluate_met(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part, n: int,
+                 slots: Resources) -> None:
     """Fill in the points that paths met, of which few are left: by one program for all materials.
 
     slots  the resources of bind/list.glsl for n invocations
     """
     device.dispatch(PRINCIPLED, n, **gpu_scene.geometry, **gpu_scene.materials, **parts.of(part, parts.met), **slots,
                     u_albedo=gpu_scene.table.table, u_takes_all=True)
+    points = parts.of(part, parts.met)
+    _evaluate_trees(device, gpu_scene, eye, points, n, slots, CONSTANTS["RAY_GLOSSY"], 1)
 
 
-def all_slots(parts: Parts) -> Resources:
+def _evaluate_trees(device: Device, gpu_scene: GpuScene, eye: Eye, points: Resources, n: int, slots: Resources,
+                    rays: int, depth: int) -> None:
+    """Fill in the points of each structure of node trees. Slots are looked through by fewer invocations than there are,
+    so that those that evaluate do it together.
+    """
+    if not gpu_scene.trees.passes:
+        return
+    n = -(-n // SHARE) if device.profiler.is_software else min(n, BUSY)
+    given = {**gpu_scene.of_trees, **points, **slots, "u_step": n, "u_footprint": eye.footprint, "u_rays": rays,
+             "u_depth": depth, "u_wants_mean": False}
+    for i, pass_ in enumerate(gpu_scene.trees.passes):
+        given["u_program"] = CONSTANTS["PROGRAM_TREE"] + i
+        device.dispatch(pass_, n, **{name: given[name] for name in pass_.wanted})
+
+
+def all_slots(parts: Parts, part: Part) -> Resources:
     """What bind/list.glsl reads for all slots of a part."""
-    return {"List": parts.lists[0], "u_is_listed": False, "u_step": ONCE}
+    return {"List": parts.lists[0], "u_is_listed": False, "u_step": ONCE, "u_n_all": part.n}

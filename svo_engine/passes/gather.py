@@ -39,13 +39,13 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, eye: Eye, 
         u_specular_cone=settings.specular_cone)
 
 
-def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: Tracer, lights: Lights, parts: Parts,
-                part: Part, settings: RenderSettings) -> None:
+def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: Tracer, lights: Lights, eye: Eye,
+                parts: Parts, part: Part, settings: RenderSettings) -> None:
     """Fill in the light of one part by rays: diffuse light, then what mirrors and glass show."""
     needs, wave = gpu_scene.needs, parts.of(part, EYE)
     n_rays = settings.gather_rays * needs.light
     if lights.has_emitters(needs):
-        device.dispatch(DRAW, part.n, **gpu_scene.geometry, **gpu_scene.materials, **wave, **all_slots(parts),
+        device.dispatch(DRAW, part.n, **gpu_scene.geometry, **gpu_scene.materials, **wave, **all_slots(parts, part),
                         **lights.emitters(), u_seed_offset=0)
     ends = {"u_n_rays": n_rays, "u_ends": parts.planes["ends"]}
     device.dispatch(
@@ -55,6 +55,6 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: 
     if needs.emission and n_rays:
         device.dispatch(FOUND, part.n, **gpu_scene.geometry, **gpu_scene.materials, **lights.emitters(), **wave, **ends)
     if needs.gloss:
-        follow_paths(device, gpu_scene, cache, tracer, lights, parts, part)
+        follow_paths(device, gpu_scene, cache, tracer, lights, eye, parts, part)
     device.profiler.counts["diffuse rays"] += part.n * n_rays
     device.profiler.counts["light draws"] += part.n * lights.n_draws

@@ -13,9 +13,10 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.program import Resources
 from .cache import LightCache
-from .evaluate import ONCE, all_slots, evaluate_met
+from .evaluate import BUSY, ONCE, all_slots, evaluate_met
 from .lights import Lights
 from .parts import EYE, LIST_HEAD, Part, Parts
+from .raster import Eye
 from .tracer import Tracer
 from .upload import GpuScene
 
@@ -23,11 +24,9 @@ DRAW = Pass("lights/draw.comp.glsl")
 STEP = Pass("path/step.comp.glsl")
 WEIGH = Pass("lights/weigh.comp.glsl")
 
-BUSY = 1 << 17  # invocations that keep a graphics card busy
 
-
-def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: Tracer, lights: Lights, parts: Parts,
-                 part: Part) -> None:
+def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: Tracer, lights: Lights, eye: Eye,
+                 parts: Parts, part: Part) -> None:
     """Follow a path from each point that the eye sees, until none is left or all are as long as a path can be."""
     most, has_emitters = gpu_scene.needs.path_vertices - 1, lights.has_emitters(gpu_scene.needs)
     common = {**tracer.resources(), **lights.resources(), **gpu_scene.world(), **cache.resources(),
@@ -41,7 +40,7 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
                         u_round=n_legs, u_is_last=n_legs == most)
         return following
 
-    going, points = step(EYE, part.n, all_slots(parts), 0), EYE
+    going, points = step(EYE, part.n, all_slots(parts, part), 0), EYE
     with device.batch("path/rounds"):
         for n_legs in range(1, most + 1):
             n, slots = _listed(device, going, part.n)
@@ -51,7 +50,7 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
                 device.dispatch(WEIGH, n, **gpu_scene.geometry, **lights.emitters(), **parts.of(part, points), **slots,
                                 u_met=parts.met)
             points = parts.met
-            evaluate_met(device, gpu_scene, parts, part, n, slots)
+            evaluate_met(device, gpu_scene, eye, parts, part, n, slots)
             if has_emitters and n_legs < most:
                 device.dispatch(DRAW, n, **gpu_scene.geometry, **gpu_scene.materials, **lights.emitters(),
                                 **parts.of(part, points), **slots, u_seed_offset=3)
@@ -62,6 +61,7 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
 def _listed(device: Device, slots: Buffer, most: int) -> tuple[int, Resources]:
     """Invocations for the slots of a list, and what bind/list.glsl reads then."""
     n = min(most, BUSY)
+    listed: Resources = {"List": slots, "u_is_listed": True, "u_n_all": 0}
     if device.profiler.is_software:
-        return int.from_bytes(slots.read(4), "little"), {"List": slots, "u_is_listed": True, "u_step": ONCE}
-    return n, {"List": slots, "u_is_listed": True, "u_step": n}
+        return int.from_bytes(slots.read(4), "little"), {**listed, "u_step": ONCE}
+    return n, {**listed, "u_step": n}

@@ -66,6 +66,14 @@ class Eye:
         """See the function of that name."""
         return rays(self.world_from_clip)
 
+    @cached_property
+    def footprint(self) -> tuple[float, float]:
+        """The width of a pixel in the middle of the picture: in metres, and in metres for each metre of the ray."""
+        origin, direction, _ = self.rays
+        ahead, beside = direction[:, 2], direction @ [2 / self.size[0], 0, 1]
+        angle = beside / np.linalg.norm(beside) - ahead / np.linalg.norm(ahead)
+        return float(np.linalg.norm(origin[:, 0]) * 2 / self.size[0]), float(np.linalg.norm(angle))
+
 
 def rays(world_from_clip: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
     """Matrices (3, 3) f8 that turn (x, y, 1) in clip space into a ray's origin on the near plane and its direction.

@@ -24,12 +24,13 @@ INSTANCE: Fields = (("row_x", "vec4"), ("row_y", "vec4"), ("row_z", "vec4"), ("f
                     ("n_triangles", "uint"), ("first_work", "uint"), ("first_slot", "uint"))
 
 # `scene.types.Material`; textures are indices, -1 for none. program: which of shaders/evaluate turns it into a Point,
-# PROGRAM_*
+# PROGRAM_*: from PROGRAM_TREE on a structure of node trees each, whose values begin at first_value
 MATERIAL: Fields = (("base_color", "vec3"), ("alpha", "float"), ("emission", "vec3"), ("roughness", "float"),
                     ("specular_tint", "vec3"), ("metallic", "float"), ("ior", "float"), ("specular_level", "float"),
                     ("transmission", "float"), ("normal_strength", "float"), ("base_color_texture", "int"),
                     ("roughness_texture", "int"), ("metallic_texture", "int"), ("emission_texture", "int"),
-                    ("alpha_texture", "int"), ("normal_texture", "int"), ("program", "uint"))
+                    ("alpha_texture", "int"), ("normal_texture", "int"), ("program", "uint"),
+                    ("first_value", "uint"))
 
 # What a ray must know of a material: which share of all rays it stops, and the texture that multiplies that, or -1
 OPACITY: Fields = (("alpha", "float"), ("alpha_texture", "int"))
@@ -85,7 +86,10 @@ CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "NO_NORMAL": 0x80008000,
              "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6,
              "HIT_DONE": 0xfffffffe,
-             "PROGRAM_MATTE": 0, "PROGRAM_PRINCIPLED": 1,
+             "PROGRAM_MATTE": 0, "PROGRAM_PRINCIPLED": 1, "PROGRAM_TREE": 2,
+             # what kind of ray has come to a point that a tree is evaluated at
+             "RAY_CAMERA": 1, "RAY_DIFFUSE": 2, "RAY_GLOSSY": 4, "RAY_TRANSMISSION": 8, "RAY_SHADOW": 16,
+             "RAY_REFLECTION": 32, "RAY_SINGULAR": 64,
              "POINT_SURFACE": 1, "POINT_LOBES": 2, "POINT_SMOOTH": 4, "POINT_BENDING": 8, "POINT_ROUGH": 16,
              "POINT_DONE": 32, "POINT_LIFTED": 64, "POINT_GLOWS": 128,
              # uvec4 a slot in bind/wave.glsl

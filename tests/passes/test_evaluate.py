@@ -74,7 +74,8 @@ def hits(scene: Scene, seed: int = 1, **fixed: Any) -> np.ndarray:
 
 
 def run(device: Device, gpu_scene: GpuScene, parts: Parts, takes_all: bool) -> None:
-    common = {**gpu_scene.geometry, **parts.of(next(iter(parts)), EYE), **all_slots(parts)}
+    part = next(iter(parts))
+    common = {**gpu_scene.geometry, **parts.of(part, EYE), **all_slots(parts, part)}
     if not takes_all:
         device.dispatch(MATTE, N, Materials=gpu_scene.materials["Materials"], **common)
     device.dispatch(PRINCIPLED, N, **gpu_scene.materials, **common, u_albedo=gpu_scene.table.table,

@@ -19,7 +19,8 @@ from . import tree
 from .shaders import ENTRY_SUFFIXES
 
 TRACE = "bind/trace.glsl"
-MATERIALS = ("bind/materials.glsl", "bind/material_rows.glsl", "bind/principled.glsl")
+MATERIALS = ("bind/materials.glsl", "bind/material_rows.glsl", "bind/principled.glsl", "nodes/closures.glsl",
+             "nodes/tree.glsl")
 MOST_BLOCKS = 16  # storage blocks that NVIDIA's cards have in a shader
 VARIANTS = "svo_engine/passes/variants.py"
 GENERATED = "lib/layouts.glsl"  # its constants are the host's too, but are never set

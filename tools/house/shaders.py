@@ -14,7 +14,7 @@ ENTRY_SUFFIXES = (".comp.glsl", ".vert.glsl", ".frag.glsl")
 LABELS = ("Purpose:", "In:", "Out:", "Invocation:")
 
 # Folders of shaders/ that are no stage: functions, and declarations of buffers
-INCLUDED_FOLDERS = {"lib", "bind"}
+INCLUDED_FOLDERS = {"lib", "bind", "nodes"}
 
 
 # Modules of passes/ that are no stage but help several

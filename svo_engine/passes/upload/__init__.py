@@ -25,6 +25,7 @@ from .placing import Draw, Placing, place
 from .shapes import pack_units, upload_shapes
 from .sky import Sky, linear_pixels, upload_sky, world_uniforms
 from .surfaces import Surfaces, upload_surfaces
+from .trees import Trees, upload_trees
 
 __all__ = ["Draw", "GpuScene", "assemble", "light_rows", "linear_pixels", "pack_units", "upload", "world_uniforms"]
 
@@ -39,6 +40,7 @@ class GpuScene:
     scene: Scene
     needs: Needs
     placing: Placing
+    trees: Trees
     surfaces: Surfaces
     cutouts: Cutouts
     lamps: Lamps
@@ -66,6 +68,12 @@ class GpuScene:
         return self.surfaces.materials
 
     @property
+    def of_trees(self) -> Resources:
+        """All that functions of shaders/nodes can ask for."""
+        return {**self.geometry, **self.materials, "Values": self.trees.values, "u_albedo": self.table.table,
+                "u_centre": self.centre_ws}
+
+    @property
     def centre_ws(self) -> np.ndarray:
         """(3,) f8, metres: what positions on the device are relative to."""
         return self.placing.centre_ws
@@ -84,17 +92,23 @@ def upload(device: Device, scene: Scene) -> GpuScene:
         scope.adopt(made.scope)
         return made
 
-    return assemble(scope, scene, needs_of(scene, RenderSettings()), make)
+    trees = trees_of(scene, make)
+    return assemble(scope, scene, needs_of(scene, RenderSettings(), trees.compiled), trees, make)
 
 
-def assemble(scope: GpuScope, scene: Scene, needs: Needs, make: Make) -> GpuScene:
+def trees_of(scene: Scene, make: Make) -> Trees:
+    """The compiled node trees of a scene; `make` as for `assemble`."""
+    return make("shaders", upload_trees, scene.plain.materials, scene.images)
+
+
+def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Make) -> GpuScene:
     """The scene from parts: `make(name, function, *inputs, n_kept)` gives function(device, *inputs), or a kept one."""
     scene = scene.plain
     shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
     placing = make("placing", place, shapes, scene.instances)
-    surfaces = make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images)
+    surfaces = make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images, trees)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     return GpuScene(
-        scope, scene, needs, placing, surfaces, make("cutouts", mark_cutouts, placing, surfaces, needs.skips),
+        scope, scene, needs, placing, trees, surfaces, make("cutouts", mark_cutouts, placing, surfaces, needs.skips),
         make("lamps", upload_lamps, scene.lights, placing.centre_ws), make("sky", upload_sky, world),
         make("albedo", albedo, needs.principled, n_kept=2))

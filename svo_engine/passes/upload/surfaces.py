@@ -14,6 +14,7 @@ from ...gpu.scope import GpuScope
 from ...needs import has_alpha, is_matte
 from ...scene import layouts
 from ...scene.types import Image, Material, Texture
+from .trees import Trees
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +40,7 @@ class Surfaces:
 
 
 def upload_surfaces(device: Device, materials: tuple[Material, ...], textures: tuple[Texture, ...],
-                    images: tuple[Image, ...]) -> Surfaces:
+                    images: tuple[Image, ...], trees: Trees) -> Surfaces:
     """Copy the materials, and the texels of all images if there is a texture."""
     scope = device.scope()
     words = [_words(image) for image in images] if textures else []
@@ -49,8 +50,9 @@ def upload_surfaces(device: Device, materials: tuple[Material, ...], textures: t
         "Textures": scope.buffer("textures", _textures(textures, images, firsts)),
         "Texels": scope.buffer("texels", np.concatenate(words) if words else np.zeros(0, "u4"))}
     return Surfaces(
-        scope, materials, textures, images, {"Materials": scope.buffer("materials", _materials(materials)), **read},
-        read, scope.buffer("opacities", _opacities(materials)), np.array([has_alpha(m) for m in materials], bool),
+        scope, materials, textures, images,
+        {"Materials": scope.buffer("materials", _materials(materials, trees)), **read}, read,
+        scope.buffer("opacities", _opacities(materials)), np.array([has_alpha(m) for m in materials], bool),
         max((_emission_bound(m, textures, images) for m in materials), default=0.0))
 
 
@@ -63,13 +65,17 @@ def _emission_bound(material: Material, textures: tuple[Texture, ...], images: t
     return max(bound, 0.0)
 
 
-def _materials(materials: tuple[Material, ...]) -> np.ndarray:
+def _materials(materials: tuple[Material, ...], trees: Trees | None = None) -> np.ndarray:
     rows = np.zeros(len(materials), layouts.dtype(layouts.MATERIAL))
-    names = [name for name in rows.dtype.names or () if name != "program"]
+    names = [name for name in rows.dtype.names or () if name not in ("program", "first_value")]
     for row, material in zip(rows, materials, strict=True):
         for name in names:
             row[name] = getattr(material, name)
         row["program"] = layouts.CONSTANTS["PROGRAM_MATTE" if is_matte(material) else "PROGRAM_PRINCIPLED"]
+    if trees:
+        structure = trees.compiled.structure_of
+        rows["program"] = np.where(structure < 0, rows["program"], layouts.CONSTANTS["PROGRAM_TREE"] + structure)
+        rows["first_value"] = trees.compiled.first_value
     return rows
 
 

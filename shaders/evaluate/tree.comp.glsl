@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Purpose:    points whose material is a compiled node tree, one structure a program.
+// In:         Wave: hits; triangles, materials, values
+// Out:        Wave: points, and lobes where there are any
+// Invocation: every u_step-th hit: those of this structure are looked for first, and then evaluated by all together
+
+#include "bind/lobes.glsl"
+#include "bind/material_rows.glsl"
+#include "bind/geo.glsl"
+#include "evaluate/hit.glsl"
+#include "nodes/closures.glsl"
+#include "nodes/tree.glsl"
+
+uniform uint u_program;
+uniform uint u_rays;         // RAY_* of the hits
+uniform uint u_depth;
+uniform bool u_wants_mean;
+
+bool is_ours(uint slot)
+{
+    Hit hit = get_hit(u_set, slot);
+    return is_surface(hit) && materials[material_of(hit.instance, hit.triangle)].program == u_program;
+}
+
+void evaluate(uint slot)
+{
+    Hit hit = get_hit(u_set, slot);
+    vec3 wo = -hit.direction;
+    Seen seen = seen_at(hit.instance, hit.triangle, hit.bary, wo);
+    uint first = materials[seen.material].first_value;
+    Geo g = geo_at(seen, hit.instance, hit.triangle, hit.bary, wo, hit.t, u_rays, u_depth, first);
+    Closures c = no_closures(g, 0.0, u_wants_mean);
+    surface(g, c);
+    Point p = point_of(hit, seen.surface, facing(c.normal, wo));
+    p.diffuse = c.diffuse;
+    p.emission = c.emission;
+    put_point(u_set, slot, p);
+}

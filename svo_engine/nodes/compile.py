@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All materials of a scene -> structures, each a text of GLSL, and the values of each material.
+
+Materials that differ in values alone share a structure, and so a program.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..scene.graph import Graph
+from ..scene.types import Material
+from .build import Built
+from .closures import leaves
+from .emit import Datum, Writer
+from .traits import Traits, traits_of
+
+MOST_REMEMBERED = 1024
+
+
+@dataclass(frozen=True, eq=False)
+class Compiled:
+    """structures   texts that define `surface(Geo g, inout Closures c)`
+    structure_of  (n_materials,) i4: the structure of each material, -1 for one without a tree of its own
+    first_value   (n_materials,) u4: where its values begin among `values`, u4: bits of floats, and indices
+    attributes    names of the attributes that trees ask for, by number
+    traits        of each material what its tree can do; None for one without a tree of its own
+    notes         (material, sentence): what is not as in Blender
+    """
+
+    structures: tuple[str, ...]
+    structure_of: np.ndarray
+    first_value: np.ndarray
+    values: np.ndarray
+    attributes: tuple[Hashable, ...]
+    traits: tuple[Traits | None, ...]
+    notes: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class One:
+    """A tree by itself."""
+
+    text: str
+    data: tuple[Datum, ...]
+    n_values: int
+    traits: Traits
+    notes: tuple[str, ...]
+
+
+def compile_materials(materials: Sequence[Material], find_image: Callable[[Any], int]) -> Compiled:
+    """Compile the trees of those materials that the plain table does not say all of.
+
+    find_image  the index of an image that a tree names
+    """
+    texts: dict[str, int] = {}
+    attributes: dict[Hashable, int] = {}
+    traits: list[Traits | None] = []
+    notes, words = [], [np.zeros(0, "u4")]
+    structure_of = np.full(len(materials), -1, "i4")
+    first_value = np.zeros(len(materials), "u4")
+    n_values = 0
+
+    def index(what: str, name: Any) -> int:
+        return find_image(name) if what == "image" else attributes.setdefault(name, len(attributes))
+
+    for i, material in enumerate(materials):
+        if material.is_exact or material.graph is None:
+            traits.append(None)
+            continue
+        one = compiled_tree(material.graph)
+        traits.append(one.traits)
+        structure_of[i], first_value[i] = texts.setdefault(one.text, len(texts)), n_values
+        words += [datum.words(index) for datum in one.data]
+        n_values += one.n_values
+        notes += [(material.name, note) for note in one.notes]
+    return Compiled(tuple(texts), structure_of, first_value, np.concatenate(words), tuple(attributes), tuple(traits),
+                    tuple(notes))
+
+
+_remembered: dict[int, tuple[Graph, One]] = {}
+
+
+def compiled_tree(graph: Graph) -> One:
+    """The tree of a surface; remembered for as long as the Graph is the same object."""
+    known = _remembered.get(id(graph))
+    if known is None or known[0] is not graph:
+        while len(_remembered) >= MOST_REMEMBERED:
+            _remembered.pop(next(iter(_remembered)))
+        known = _remembered[id(graph)] = graph, _compile(graph)
+    return known[1]
+
+
+def _compile(graph: Graph) -> One:
+    notes: dict[str, None] = {}
+    found = leaves(Built(graph, {"surface": graph.surface}, notes.setdefault).shader("surface"))
+    writer = Writer()
+    writer.closures(found)
+    return One(writer.text(), tuple(writer.data), writer.n_values, traits_of(found), tuple(notes))

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compiled node trees on the device: a program for each structure, and the values of all materials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from ...gpu.buffer import Buffer
+from ...gpu.device import Device
+from ...gpu.passes import Pass
+from ...gpu.scope import GpuScope
+from ...nodes.compile import Compiled, compile_materials
+from ...scene.types import Image, Material
+
+TEMPLATE = "evaluate/tree.comp.glsl"
+PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text stands for
+
+
+@dataclass(frozen=True, eq=False)
+class Trees:
+    """passes: the evaluating program of each of the compiled structures; values: the buffer of bind/geo.glsl."""
+
+    scope: GpuScope
+    compiled: Compiled
+    passes: tuple[Pass, ...]
+    values: Buffer
+
+    @property
+    def variants(self) -> tuple[tuple[Pass, Mapping[str, bool]], ...]:
+        """What a frame must have compiled."""
+        return tuple((pass_, {}) for pass_ in self.passes)
+
+
+def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[Image, ...]) -> Trees:
+    """Compile the trees of those materials that have one of their own, and copy their values."""
+    scope = device.scope()
+    names = {image.name: i for i, image in enumerate(images)}
+
+    def find_image(name: Any) -> int:
+        return names.get(name, 0)
+
+    compiled = compile_materials(materials, find_image)
+    return Trees(scope, compiled, tuple(map(tree_pass, compiled.structures)), scope.buffer("values", compiled.values))
+
+
+@lru_cache(1024)
+def tree_pass(text: str) -> Pass:
+    """The evaluating program of a structure; one object for each text, so that what is known of it stays."""
+    return Pass(TEMPLATE, texts={PLACE: text})
