@@ -85,7 +85,8 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
                          not needs.alpha, n_kept=SIZES)
         film = make_film(scope, view, planes_for(needs, settings, denoiser.name), gpu_scene.centre_ws,
                          is_black=settings.view != "combined")
-        frame = Frame(needs, film, denoiser, list(denoiser.limits), make_progress(scope, film, settings))
+        frame = Frame(needs, film, denoiser, [*gpu_scene.surfaces.limits, *denoiser.limits],
+                      make_progress(scope, film, settings))
         targets = stage("targets", make_targets, view.size, n_kept=SIZES)
         tracer, show = _method(stage, device, gpu_scene, targets, view, settings, frame)
         for sample in range(settings.samples):

@@ -13,6 +13,7 @@ import numpy as np
 from svo_engine.gpu.buffer import Buffer
 from svo_engine.gpu.device import Device
 from svo_engine.gpu.texels import Texels
+from svo_engine.gpu.texture import Texture
 from svo_engine.passes.bvh import build_bvh, build_meshes
 from svo_engine.passes.tracer import Tracer, make_rest, tracer_of
 from svo_engine.passes.upload import GpuScene, upload
@@ -66,7 +67,7 @@ class Traced:
         """An expression with bind/trace.glsl and bind/geometry.glsl for every row of `inputs`."""
         resources = {**self.tracer.resources(), **self.gpu_scene.geometry}
         buffers = {name: value for name, value in resources.items() if isinstance(value, Buffer)}
-        textures = {name: value for name, value in resources.items() if isinstance(value, Texels)}
+        textures = {name: value for name, value in resources.items() if isinstance(value, (Texels, Texture))}
         uniforms = {name: value for name, value in resources.items() if name not in {**buffers, **textures}}
         rows: dict[str, Any] = {name: _f4(values) for name, values in inputs.items()}
         return evaluate(self.device, result, expression, ("bind/trace.glsl", "bind/geometry.glsl"), PRELUDE + prelude,

@@ -5,6 +5,8 @@
 const uint FORMAT_SRGB8 = 0u;
 const uint FORMAT_LINEAR8 = 1u;
 const uint FORMAT_FLOAT = 2u;
+const uint WORDS_WIDTH = 4096u;
+const uint WORDS_HEIGHT = 1024u;
 const uint EXTENSION_REPEAT = 0u;
 const uint EXTENSION_EXTEND = 1u;
 const uint EXTENSION_CLIP = 2u;
@@ -82,14 +84,22 @@ struct Opacity {
 
 struct Texture {
     vec3 u_from_uv;
-    uint first_word;
+    uint picture;
     vec3 v_from_uv;
-    uint format;
-    int width;
-    int height;
     uint extension;
     uint closest;
     int channel;
+    uint divides;
+};
+
+struct Picture {
+    uint first_word;
+    uint format;
+    int width;
+    int height;
+    uint is_associated;
+    int tile;
+    uint n_tiles;
 };
 
 struct Light {

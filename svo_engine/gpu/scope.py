@@ -17,6 +17,7 @@ from .framebuffer import Framebuffer
 from .pool import Pool
 from .texels import TEXEL, Texels
 from .texture import Layers, Texture
+from .words import Words, size_of
 
 
 class Closing(Protocol):
@@ -122,6 +123,13 @@ class GpuScope:
         buffer = self.buffer(label, data)
         return self._make(label, 0, lambda: Texels(self._calls, buffer))
 
+    def words(self, label: str, n_words: int) -> Words:
+        """Room for words that shaders read as a usampler2DArray, see `Words`."""
+        shape = size_of(n_words)
+        self._check(f"Texture '{label}'", shape[2], "GL_MAX_ARRAY_TEXTURE_LAYERS", _layers)
+        return self._make(label, 4 * shape[0] * shape[1] * shape[2], lambda: Words(self._calls, n_words),
+                          ("words", shape))
+
     def framebuffer(self, label: str, picture: Texture) -> Framebuffer:
         """What draws into `picture`."""
         return self._make(label, 4 * picture.size[0] * picture.size[1],
@@ -166,6 +174,10 @@ def _made(create: Callable[[], Made], pool: Pool) -> Made:
 
 def _texels_a_side(n: int) -> str:
     return f"{n} texels a side"
+
+
+def _layers(n: int) -> str:
+    return f"{n} layers"
 
 
 def _mib(n_bytes: int) -> str:

@@ -28,6 +28,7 @@ class Compiled:
     structure_of  (n_materials,) i4: the structure of each material, -1 for one without a tree of its own
     first_value   (n_materials,) u4: where its values begin among `values`, u4: bits of floats, and indices
     attributes    names of the attributes that trees ask for, by number
+    images        indices of the images that trees read
     traits        of each material what its tree can do; None for one without a tree of its own
     notes         (material, sentence): what is not as in Blender
     """
@@ -37,6 +38,7 @@ class Compiled:
     first_value: np.ndarray
     values: np.ndarray
     attributes: tuple[Hashable, ...]
+    images: frozenset[int]
     traits: tuple[Traits | None, ...]
     notes: tuple[tuple[str, str], ...]
 
@@ -55,10 +57,11 @@ class One:
 def compile_materials(materials: Sequence[Material], find_image: Callable[[Any], int]) -> Compiled:
     """Compile the trees of those materials that the plain table does not say all of.
 
-    find_image  the index of an image that a tree names
+    find_image  the index of an image that a tree names, which need not be there
     """
     texts: dict[str, int] = {}
     attributes: dict[Hashable, int] = {}
+    images: set[int] = set()
     traits: list[Traits | None] = []
     notes, words = [], [np.zeros(0, "u4")]
     structure_of = np.full(len(materials), -1, "i4")
@@ -66,7 +69,10 @@ def compile_materials(materials: Sequence[Material], find_image: Callable[[Any],
     n_values = 0
 
     def index(what: str, name: Any) -> int:
-        return find_image(name) if what == "image" else attributes.setdefault(name, len(attributes))
+        if what != "image":
+            return attributes.setdefault(name, len(attributes))
+        images.add(number := find_image(name))
+        return number
 
     for i, material in enumerate(materials):
         if material.is_exact or material.graph is None:
@@ -78,8 +84,8 @@ def compile_materials(materials: Sequence[Material], find_image: Callable[[Any],
         words += [datum.words(index) for datum in one.data]
         n_values += one.n_values
         notes += [(material.name, note) for note in one.notes]
-    return Compiled(tuple(texts), structure_of, first_value, np.concatenate(words), tuple(attributes), tuple(traits),
-                    tuple(notes))
+    return Compiled(tuple(texts), structure_of, first_value, np.concatenate(words), tuple(attributes),
+                    frozenset(images), tuple(traits), tuple(notes))
 
 
 _remembered: dict[int, tuple[Graph, One]] = {}

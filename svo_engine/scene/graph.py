@@ -32,7 +32,7 @@ class Node:
 
     kind      Blender's `bl_idname`, reroutes, group nodes and the ends of groups included
     settings  its properties by name: numbers, strings and tuples. A datablock is its full name, None without one:
-              "image" names an image, which need not be in Scene.images; "node_tree" a group of the Graph; "object" an
+              "image" names an image; "node_tree" a group of the Graph; "object" an
               object, with its matrix (16 numbers, by rows) as "object.matrix_world". Of a record it is
               "record.property". "color_ramp" is (color_mode, interpolation, hue_interpolation, ((position, r, g, b, a),
               ...)). "mapping" (curves) is (extend, (min_x, min_y, max_x, max_y) or None without clipping, (black),

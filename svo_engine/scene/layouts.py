@@ -35,9 +35,14 @@ MATERIAL: Fields = (("base_color", "vec3"), ("alpha", "float"), ("emission", "ve
 # What a ray must know of a material: which share of all rays it stops, and the texture that multiplies that, or -1
 OPACITY: Fields = (("alpha", "float"), ("alpha_texture", "int"))
 
-# `scene.types.Texture` with its image: texels first_word ... of the words buffer, in `format` FORMAT_*
-TEXTURE: Fields = (("u_from_uv", "vec3"), ("first_word", "uint"), ("v_from_uv", "vec3"), ("format", "uint"),
-                   ("width", "int"), ("height", "int"), ("extension", "uint"), ("closest", "uint"), ("channel", "int"))
+# `scene.types.Texture`; picture: the row of its image
+TEXTURE: Fields = (("u_from_uv", "vec3"), ("picture", "uint"), ("v_from_uv", "vec3"), ("extension", "uint"),
+                   ("closest", "uint"), ("channel", "int"), ("divides", "uint"))
+
+# `scene.types.Image`: texels first_word ... of all words, in `format` FORMAT_*. tile: its UDIM number, or 0; n_tiles:
+# rows from here on that are tiles of the same image
+PICTURE: Fields = (("first_word", "uint"), ("format", "uint"), ("width", "int"), ("height", "int"),
+                   ("is_associated", "uint"), ("tile", "int"), ("n_tiles", "uint"))
 
 # `scene.types.Light`; axes are unit vectors, the lamp shines along -axis_z. size: half extents (AREA), radius in
 # size.x (POINT, SPOT), tangent of half the angle in size.x (SUN). spot: cosine of half the angle, blend
@@ -76,11 +81,12 @@ BVH_INSTANCE: Fields = (("inv_x", "vec4"), ("inv_y", "vec4"), ("inv_z", "vec4"),
 # What a tree is built from: box, reference, and tree << BVH_HEIGHT_BITS | height
 CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("tree_height", "uint"))
 
-STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Texture": TEXTURE, "Light": LIGHT,
-           "LightNode": LIGHT_NODE, "Emitter": EMITTER, "Voxel": VOXEL, "Surfel": SURFEL, "BvhNode": BVH_NODE,
-           "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
+STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Texture": TEXTURE, "Picture": PICTURE,
+           "Light": LIGHT, "LightNode": LIGHT_NODE, "Emitter": EMITTER, "Voxel": VOXEL, "Surfel": SURFEL,
+           "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
+             "WORDS_WIDTH": 4096, "WORDS_HEIGHT": 1024,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
              "LIGHT_POINT": 0, "LIGHT_SUN": 1, "LIGHT_SPOT": 2, "LIGHT_AREA": 3,
              "NO_NORMAL": 0x80008000,

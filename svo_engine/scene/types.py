@@ -28,15 +28,19 @@ Color = tuple[float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """Pixels as Blender holds them: row 0 is the bottom row.
+    """Pixels as Cycles filters them: row 0 is the bottom row.
 
-    pixels  (height, width, 4) u1 or f4, RGB as a material reads it, whether or not it was multiplied by alpha. u1 is
-            sRGB-encoded when `is_srgb`; f4 is scene-linear
+    name           by which graphs know it; a frame of a sequence has its number behind it, see `frame_name`
+    pixels         (height, width, 4) u1 or f4. u1 is sRGB-encoded when `is_srgb`; f4 is scene-linear
+    is_associated  RGB was multiplied by alpha, bytes as they are encoded. Who reads alpha as well divides by it
+    tile           its UDIM number, 0 for all others. The tiles of an image have its name and follow one another
     """
 
     name: str
     pixels: np.ndarray
     is_srgb: bool = False
+    is_associated: bool = False
+    tile: int = 0
 
     def __post_init__(self) -> None:
         dtype = "u1" if self.pixels.dtype == np.uint8 else "f4"
@@ -45,11 +49,18 @@ class Image:
             raise SceneError(f"Image '{self.name}': float pixels are scene-linear and cannot be sRGB-encoded")
 
 
+def frame_name(name: str, frame: int) -> str:
+    """What a frame of the sequence or movie `name` is called in `Scene.images`."""
+    return f"{name} [{frame}]"
+
+
 @dataclass(frozen=True)
 class Texture:
     """How a material reads an image: `uv' = uv_from_mesh @ (u, v, 1)`, then one channel or all of them.
 
+    image    of tiles the first one
     channel  -1: RGB as it is, or its Rec. 709 luminance for a number; 0, 1, 2, 3: that channel of RGBA, as a grey value
+    divides  RGB that was multiplied by alpha is divided by it, as Cycles does once a material reads alpha too
     """
 
     image: int
@@ -57,6 +68,7 @@ class Texture:
     extension: Literal["REPEAT", "EXTEND", "CLIP", "MIRROR"] = "REPEAT"
     interpolation: Literal["Linear", "Closest"] = "Linear"
     channel: int = -1
+    divides: bool = False
 
 
 @dataclass(frozen=True)

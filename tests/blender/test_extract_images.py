@@ -186,36 +186,85 @@ def test_missing_image_is_magenta_as_in_cycles(empty, tmp_path, make):
     np.testing.assert_allclose(cycles.render(tmp_path, samples=1)[..., :3], np.broadcast_to(MAGENTA, (4, 4, 3)))
 
 
-def test_sequence_is_told(empty, tmp_path):
+def _files(folder, name, colors):
+    """Files of one colour each, by number."""
+    for number, color in colors.items():
+        made = one_color(*color)
+        made.filepath_raw, made.file_format = str(folder / name.format(number)), "PNG"
+        made.save()
+        bpy.data.images.remove(made)
+
+
+def test_frames_of_a_sequence(empty, tmp_path):
+    _files(tmp_path, "wood_{:04d}.png", {n: (n / 5, 0.2, 0, 1) for n in (1, 2, 3)})
+    made = bpy.data.images.load(str(tmp_path / "wood_0001.png"))
+    made.source = "SEQUENCE"
+    nodes = material()
+    texture = texture_node(nodes, made)
+    texture.image_user.frame_duration, texture.image_user.use_auto_refresh = 3, True
+    glowing(nodes, texture)
+    for frame in (1, 3):
+        bpy.context.scene.frame_set(frame)
+        n_before = len(bpy.data.images)
+        scene = extracted()
+        assert len(bpy.data.images) == n_before
+        assert scene.images[0].name == f"wood_0001.png [{frame}]"
+        shown = closest(scene, 0, (0.3, 0.3))
+        np.testing.assert_allclose(cycles.render(tmp_path, samples=1)[..., :3], np.broadcast_to(shown, (4, 4, 3)), 1e-4)
+
+
+def test_frame_that_is_missing_is_magenta(empty, tmp_path):
     made, _ = _missing(tmp_path)
     made.source = "SEQUENCE"
     nodes = material()
     glowing(nodes, texture_node(nodes, made))
-    assert extracted().warnings == ("Image 'Wood' is a sequence, which is not supported; it is drawn in magenta",)
+    sentence, = extracted().warnings
+    assert sentence.startswith("Image 'Wood' cannot be read from")
 
 
-def test_first_tile_stands_for_all(empty, tmp_path):
-    for number, color in ((1001, (0, 1, 0, 1)), (1002, (1, 0, 0, 1))):
-        made = one_color(*color)
-        made.filepath_raw, made.file_format = str(tmp_path / f"t.{number}.png"), "PNG"
-        made.save()
+@pytest.mark.parametrize("is_packed", [False, True])
+def test_tiles(empty, tmp_path, is_packed):
+    _files(tmp_path, "t.{}.png", {1001: (0, 1, 0, 1), 1002: (1, 0, 0, 1), 1011: (0, 0, 1, 1)})
     tiled = bpy.data.images.load(str(tmp_path / "t.1001.png"))
     tiled.source, tiled.filepath, tiled.name = "TILED", str(tmp_path / "t.<UDIM>.png"), "Tiles"
-    tiled.reload()
+    if is_packed:
+        tiled.pack()
+        for path in tmp_path.glob("t.*.png"):
+            path.unlink()
     nodes = material()
     glowing(nodes, texture_node(nodes, tiled))
     scene = extracted()
-    np.testing.assert_array_equal(closest(scene, 0, (0.3, 0.3)), (0, 1, 0))
-    assert scene.warnings == (
-        "Image 'Tiles' has 2 UDIM tiles, which are not supported; tile 1001 is used for all",)
+    assert scene.warnings == ()
+    assert [(image.name, image.tile) for image in scene.images] == [("Tiles", n) for n in (1001, 1002, 1011)]
+    assert [tuple(image.pixels[0, 0]) for image in scene.images] == [
+        (0, 255, 0, 255), (255, 0, 0, 255), (0, 0, 255, 255)]
+
+
+@pytest.mark.parametrize("space", [
+    "ACEScg", "ACES2065-1", "Linear Rec.2020", "Linear DCI-P3 D65", "Display P3", "Rec.1886", "Rec.2020",
+    "Linear CIE-XYZ D65", "Linear CIE-XYZ E", "Linear FilmLight E-Gamut"])
+def test_colour_spaces(empty, tmp_path, space):
+    """Cycles keeps them as halves, of 11 bits, cut before and after the matrix."""
+    try:
+        made = image(random_pixels(), space=space, alpha_mode="NONE")
+    except TypeError:
+        pytest.skip("this Blender does not have the space")
+    nodes = material()
+    glowing(nodes, texture_node(nodes, made))
+    scene = extracted()
+    assert scene.warnings == ()
+    shown = closest(scene, scene.materials[0].emission_texture, pixel_uvs())
+    drawn = cycles.render(tmp_path, size=(SIZE, SIZE), samples=1, filter_width=0.01)
+    np.testing.assert_allclose(shown, drawn[..., :3], atol=4e-3)
 
 
 def test_colour_space_that_is_not_supported_is_told(empty):
     nodes = material()
-    glowing(nodes, texture_node(nodes, one_color(1, 1, 1, 1, space="ACEScg")))
+    glowing(nodes, texture_node(nodes, one_color(1, 1, 1, 1, space="Filmic Log")))
     scene = extracted()
     assert scene.images[0].is_srgb
-    assert scene.warnings == ("Image 'Image' is in the colour space 'ACEScg', which is not supported; sRGB is used",)
+    assert scene.warnings == (
+        "Image 'Image' is in the colour space 'Filmic Log', which is not supported; sRGB is used",)
 
 
 def test_each_image_is_stored_once(empty):
@@ -228,14 +277,28 @@ def test_each_image_is_stored_once(empty):
     nodes.new("Emission", Strength=texture.outputs["Alpha"])
     glowing(nodes, texture)
     scene = extracted()
-    assert len(scene.images) == len(scene.textures) == 1
+    assert len(scene.images) == 1
+    assert [texture.divides for texture in scene.textures] == [False, True]
 
 
 def test_image_that_nothing_shows_is_not_read(empty):
     nodes = material()
-    texture = texture_node(nodes, one_color(1, 0, 0, 1))
-    plane(nodes.show(nodes.new("BsdfPrincipled", Emission_Color=texture)))  # without strength
+    texture_node(nodes, one_color(1, 0, 0, 1))
+    plane(nodes.show(nodes.new("BsdfPrincipled")))
+    other = material("Unused")
+    other.show(other.new("Emission", Color=texture_node(other, one_color(0, 1, 0, 1))))
     assert extracted().images == ()
+
+
+def test_images_of_nodes_that_a_plain_material_does_not_read(empty):
+    """Once each, by full name."""
+    nodes = material()
+    shared = one_color(1, 0, 0, 1)
+    inside = nodes.new("BrightContrast", Color=texture_node(nodes, shared))
+    glowing(nodes, inside, "Color")
+    nodes = material("Other")
+    plane(nodes.show(nodes.new("BsdfPrincipled", Base_Color=texture_node(nodes, shared))), name="Other")
+    assert [image.name for image in extracted().images] == [shared.name_full]
 
 
 @pytest.mark.parametrize(("setting", "value", "warning"), [

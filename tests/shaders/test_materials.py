@@ -20,13 +20,14 @@ FLOATS = RNG.normal(size=(4, 3, 4)).astype("f4")
 UV = np.concatenate([RNG.uniform(-2.5, 3.5, (400, 2)), [[0, 0], [1, 1], [0.5, 0.5], [1 / 7, 2 / 5]]]).astype("f4")
 
 
-def linear(pixels: np.ndarray, is_srgb: bool) -> np.ndarray:
-    """Texels as the renderer works with them, f8."""
-    if pixels.dtype != np.uint8:
-        return pixels.astype("f8")
-    c = pixels / 255
-    decoded = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-    return np.concatenate([decoded[..., :3], c[..., 3:]], 2) if is_srgb else c
+def meant(sums: np.ndarray, image: Image, texture: Texture) -> np.ndarray:
+    """What sums (n, 4) of texels as they are stored mean."""
+    rgb, alpha = sums[:, :3], sums[:, 3:]
+    if texture.divides and image.is_associated:
+        rgb = np.where((alpha == 0) | (alpha == 1), rgb, rgb / np.where(alpha == 0, 1, alpha))
+    if image.is_srgb:
+        rgb = np.where(rgb <= 0.04045, rgb / 12.92, ((np.maximum(rgb, 0) + 0.055) / 1.055) ** 2.4)
+    return np.concatenate([rgb, alpha], 1)
 
 
 def texel(pixels: np.ndarray, x: int, y: int, extension: str) -> np.ndarray:
@@ -41,7 +42,8 @@ def texel(pixels: np.ndarray, x: int, y: int, extension: str) -> np.ndarray:
 
 def look_up(image: Image, texture: Texture, uv: np.ndarray) -> np.ndarray:
     """(n, 4) f8, one look-up after the other."""
-    pixels, found = linear(image.pixels, image.is_srgb), []
+    found: list[np.ndarray] = []
+    pixels = image.pixels.astype("f8") / (255 if image.pixels.dtype == np.uint8 else 1)
     m = np.array(texture.uv_from_mesh).reshape(2, 3)
     for u, v in uv.astype("f8") @ m[:, :2].T + m[:, 2]:
         x, y = u * pixels.shape[1], v * pixels.shape[0]
@@ -53,13 +55,15 @@ def look_up(image: Image, texture: Texture, uv: np.ndarray) -> np.ndarray:
         corners = [[texel(pixels, i + a, j + b, texture.extension) for a in (0, 1)] for b in (0, 1)]
         rows = [(1 - (x - i)) * row[0] + (x - i) * row[1] for row in corners]
         found.append((1 - (y - j)) * rows[0] + (y - j) * rows[1])
-    return np.array(found)
+    return meant(np.array(found), image, texture)
 
 
 def on_device(device, kind, expression, scene, **inputs):
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        return evaluate(device, kind, expression, MATERIALS, buffers=gpu_scene.materials, **inputs)
+        read = dict(gpu_scene.materials)
+        words = {"u_words": read.pop("u_words")}
+        return evaluate(device, kind, expression, MATERIALS, buffers=read, textures=words, **inputs)
 
 
 def scene_of(image: Image, *textures: Texture) -> Scene:
@@ -76,6 +80,24 @@ def test_linear_look_ups(device, image, extension):
     texture = Texture(0, extension=extension)
     found = on_device(device, "vec3", "texture_color(0, uv)", scene_of(image, texture), uv=UV)
     assert np.allclose(found, look_up(image, texture, UV)[:, :3], atol=2e-5)  # f4: coordinates up to 25 texels
+
+
+@pytest.mark.parametrize("kind", ["sRGB", "floats"])
+def test_alpha_is_divided_out_after_the_filter(device, kind):
+    image = replace(IMAGES[kind], is_associated=True, pixels=np.maximum(IMAGES[kind].pixels, np.array(1).astype(
+        IMAGES[kind].pixels.dtype)))
+    texture = Texture(0, divides=True)
+    found = on_device(device, "vec3", "texture_color(0, uv)", scene_of(image, texture), uv=UV)
+    assert np.allclose(found, look_up(image, texture, UV)[:, :3], rtol=2e-4, atol=5e-5)  # f4, and divided
+
+
+def test_tiles_lie_where_their_numbers_say(device):
+    """Beyond them is magenta, as in Cycles, and coordinates below zero belong to the first."""
+    tiles = tuple(Image("T", np.full((2, 2, 4), n / 10, "f4"), tile=n + 1000) for n in (1, 2, 11))
+    scene = Scene(images=(Image("Other", FLOATS), *tiles), textures=(Texture(1),))
+    uv = np.array([[0.5, 0.5], [1.5, 0.5], [0.5, 1.5], [1.5, 1.5], [2.5, 0.5], [-0.5, 0.5]], "f4")
+    found = on_device(device, "vec3", "texture_color(0, uv)", scene, uv=uv)
+    assert np.allclose(found, [[0.1] * 3, [0.2] * 3, [1.1] * 3, [1, 0, 1], [1, 0, 1], [0.1] * 3], atol=1e-6)
 
 
 @pytest.mark.parametrize("extension", ["REPEAT", "EXTEND", "CLIP", "MIRROR"])

@@ -32,11 +32,13 @@ def extract(depsgraph: bpy.types.Depsgraph, *, space: bpy.types.SpaceView3D | No
     scene, layer = depsgraph.scene_eval, depsgraph.view_layer_eval
     images = Images(warn)
     textures = Textures(images)
-    materials = Materials(textures, warn)
+    materials = Materials(textures, images, warn)
     placing = Placing(materials, layer.material_override, warn)
     for instance, matrix in visits(depsgraph, matrices_of(depsgraph)):
         if instance.show_self and is_seen(instance, space):
             placing.visit(instance, matrix)
+    for light in placing.lights:
+        images.add_named(light.graph)
     world = read_world(getattr(layer, "world_override", None) or scene.world, images, warn)
     return Scene(
         meshes=tuple(placing.meshes), instances=placing.instances(), materials=tuple(materials.found),

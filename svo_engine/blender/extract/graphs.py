@@ -155,7 +155,9 @@ def _set(made: dict[str, Plain], name: str, value: Any) -> None:
         made.update({f"{name}.{part}": _plain(getattr(value, part)) for part in _IMAGE_USER})
     else:
         made[name] = _plain(value)
-        if isinstance(value, bpy.types.Object):
+        if isinstance(value, bpy.types.Image):
+            made[f"{name}.source"] = value.source
+        elif isinstance(value, bpy.types.Object):
             made[f"{name}.matrix_world"] = tuple(x for row in value.matrix_world for x in row)
         elif isinstance(value, bpy.types.Text):
             made[f"{name}.text"] = value.as_string()

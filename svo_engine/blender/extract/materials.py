@@ -11,6 +11,7 @@ import bpy
 
 from ...scene.types import Material
 from .graphs import read_graph
+from .images import Images
 from .nodes import Port, fed_output, tree_of
 from .reader import Reader
 from .surfaces import NOTHING, surface
@@ -36,10 +37,10 @@ class Materials:
     uv_maps  the names of the UV maps that each of them asks for
     """
 
-    def __init__(self, textures: Textures, warn: Callable[[str], object]) -> None:
+    def __init__(self, textures: Textures, images: Images, warn: Callable[[str], object]) -> None:
         self.found: list[Material] = []
         self.uv_maps: list[set[str]] = []
-        self._textures = textures
+        self._textures, self._images = textures, images
         self._warn = warn
         self._index: dict[int, int] = {}
 
@@ -50,6 +51,7 @@ class Materials:
             self._index[pointer] = len(self.found)
             reader = Reader(f"Material '{material.name}'" if material else "", self._textures, self._warn)
             self.found.append(_read(material, reader) if material else default_material())
+            self._images.add_named(self.found[-1].graph)
             self.uv_maps.append(reader.uv_maps)
         return self._index[pointer]
 

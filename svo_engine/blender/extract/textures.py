@@ -34,10 +34,10 @@ class Textures:
             reader.guess(f"node '{node.name}': {node.interpolation} interpolation is not supported; Linear is used")
         matrix = lookup_from_native(reader, port, ("UV",))[:2, (0, 1, 3)]
         return self._place(Texture(
-            self._images.index(node.image, has_straight_alpha=node.outputs["Alpha"].is_linked),
+            self._images.index(node.image, node.image_user),
             uv_from_mesh=tuple(matrix.ravel().tolist()), extension=node.extension,
             interpolation="Closest" if node.interpolation == "Closest" else "Linear",
-            channel=3 if port.socket.identifier == "Alpha" else -1))
+            channel=3 if port.socket.identifier == "Alpha" else -1, divides=node.outputs["Alpha"].is_linked))
 
     def one_channel(self, index: int, channel: int) -> int:
         """Where one channel (0, 1, 2) of texture `index` stands in `found`; that itself if it is one already."""

@@ -35,7 +35,7 @@ class _Environments:
         matrix = lookup_from_native(reader, port, ("Generated", "Object"))
         if matrix[:, 3].any():
             reader.guess(f"node '{node.name}': the image of a world can be turned, but not moved; Location is left out")
-        self.found.append((self._images.index(node.image), _as_rotation(matrix[:, :3])))
+        self.found.append((self._images.index(node.image, node.image_user), _as_rotation(matrix[:, :3])))
         return len(self.found) - 1
 
     def one_channel(self, index: int, channel: int) -> int:
@@ -59,6 +59,7 @@ def read_world(world: Any, images: Images, warn: Callable[[str], object]) -> Wor
     if volume is not None and not volume.is_constant:
         reader.warn("volume is left out")
     background, graph = surface(reader, fed_output(tree, "Surface")), read_graph(tree, world)
+    images.add_named(graph)
     if background.emission_texture < 0:
         return World(background.emission, graph=graph)
     return World(background.emission, *environments.found[background.emission_texture], graph=graph)

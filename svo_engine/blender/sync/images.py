@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 
 from ...scene.types import Image
-from ..extract.images import read_image, with_alpha
+from ..extract.images import read_images
 from .changes import Changes, Uid, uid_of
 from .same import keep
 
@@ -19,18 +19,16 @@ from .same import keep
 _MOST_COMPARED = 1 << 18
 
 
+Key = tuple[Uid, int]  # of an image, and the frame of it
+
+
 @dataclass(eq=False)
 class _Kept:
-    """One image as it was read: `marks` and `file` as they were then, `made` by whether alpha is straight.
-
-    before  `made` of the reading before
-    """
+    """One image, or one frame of it, as it was read: `marks` and `file` as they were then."""
 
     marks: tuple[Any, ...]
     file: tuple[int, int]
-    raw: Image
-    made: dict[bool, Image]
-    before: dict[bool, Image]
+    images: tuple[Image, ...]
     notes: tuple[str, ...]
     is_stale: bool = False
 
@@ -40,21 +38,18 @@ class KeptImages:
 
     def __init__(self) -> None:
         self.n_read = 0
-        self._kept: dict[Uid, _Kept] = {}
+        self._kept: dict[Key, _Kept] = {}
 
-    def get(self, image: Any, has_straight_alpha: bool, warn: Callable[[str], object]) -> Image:
+    def get(self, image: Any, frame: int, warn: Callable[[str], object]) -> tuple[Image, ...]:
         """As `Source.get`, over all updates."""
-        uid = uid_of(image) if image else 0
-        kept = self._kept.get(uid)
+        key = key_of(image, frame)
+        kept = self._kept.get(key)
         if kept is None or kept.is_stale:
             self.n_read += image is not None
-            kept = self._kept[uid] = self._read(image, kept)
+            kept = self._kept[key] = self._read(image, frame, kept)
         for note in kept.notes:
             warn(note)
-        if has_straight_alpha not in kept.made:
-            made = with_alpha(image, kept.raw, has_straight_alpha)
-            kept.made[has_straight_alpha] = keep(kept.before.get(has_straight_alpha), made)
-        return kept.made[has_straight_alpha]
+        return kept.images
 
     def are_stale(self) -> bool:
         """Whether any is known to have changed."""
@@ -64,11 +59,11 @@ class KeptImages:
         """Whether any has changed, also if nobody has told, as far as that can be seen in 3 ms: pixels are compared if
         they are few, and not saved. Who sets more of them must call `Image.update_tag`."""
         n_left = _MOST_COMPARED
-        for kept, image in self._found():
+        for (_, frame), kept, image in self._found():
             kept.is_stale |= _marks(image) != kept.marks
             if image.is_dirty and not kept.is_stale:
                 n_left -= image.size[0] * image.size[1]
-                kept.is_stale = n_left >= 0 and self._read(image, kept) is not kept
+                kept.is_stale = n_left >= 0 and self._read(image, frame, kept) is not kept
         return self.are_stale()
 
     def look(self, changes: Changes, images_of: Callable[[Uid], frozenset[Uid]]) -> frozenset[Uid]:
@@ -80,40 +75,43 @@ class KeptImages:
         images_of  the images that a material reads
         """
         reloaded = frozenset().union(*(images_of(uid) for uid in changes.reloaded))
-        for kept, image in self._found():
-            uid = uid_of(image)
+        for (uid, _), kept, image in self._found():
             kept.is_stale |= uid in changes.images
             if uid in reloaded:
                 kept.is_stale |= not changes.has_scene or _file(image) != kept.file
         self.compare()
-        return frozenset(uid for uid, kept in self._kept.items() if kept.is_stale)
+        return frozenset(uid for (uid, _), kept in self._kept.items() if kept.is_stale)
 
-    def keep_only(self, used: frozenset[Uid]) -> None:
-        """Give up all others, and what was read before."""
-        self._kept = {uid: kept for uid, kept in self._kept.items() if uid in used}
-        for kept in self._kept.values():
-            kept.before = {}
+    def keep_only(self, used: frozenset[Key]) -> None:
+        """Give up all others."""
+        self._kept = {key: kept for key, kept in self._kept.items() if key in used}
 
     def distrust(self) -> None:
         """Have all read again; what is the same stays."""
         for kept in self._kept.values():
             kept.is_stale = True
 
-    def _found(self) -> list[tuple[_Kept, Any]]:
+    def _found(self) -> list[tuple[Key, _Kept, Any]]:
         """What is kept, with its datablock: by uid, for a datablock's address may hold another one by now."""
-        return [(self._kept[uid], image) for image in bpy.data.images if (uid := uid_of(image)) in self._kept]
+        images = {uid_of(image): image for image in bpy.data.images}
+        return [(key, kept, images[key[0]]) for key, kept in self._kept.items() if key[0] in images]
 
-    def _read(self, image: Any, last: _Kept | None) -> _Kept:
+    def _read(self, image: Any, frame: int, last: _Kept | None) -> _Kept:
         """`image` anew; `last` itself if that is the same."""
         notes: dict[str, None] = {}
-        raw = read_image(image, notes.setdefault)
+        images = read_images(image, frame, notes.setdefault)
         if last is not None:
-            raw = keep(last.raw, raw)
+            images = keep(last.images, images)
         marks, file = _marks(image), _file(image)
-        if last is not None and raw is last.raw and (marks, tuple(notes)) == (last.marks, last.notes):
+        if last is not None and images is last.images and (marks, tuple(notes)) == (last.marks, last.notes):
             last.is_stale, last.file = False, file
             return last
-        return _Kept(marks, file, raw, {}, last.made if last else {}, tuple(notes))
+        return _Kept(marks, file, images, tuple(notes))
+
+
+def key_of(image: Any, frame: int) -> Key:
+    """Of a datablock, or None."""
+    return uid_of(image) if image else 0, frame
 
 
 def _marks(image: Any) -> tuple[Any, ...]:
@@ -121,8 +119,8 @@ def _marks(image: Any) -> tuple[Any, ...]:
     if image is None:
         return ()
     space = image.colorspace_settings
-    return (*image.size, image.alpha_mode, image.source, image.filepath, image.is_dirty, image.is_float, space.name,
-            space.is_data)
+    return (image.name_full, *image.size, *(tile.number for tile in image.tiles), image.alpha_mode, image.source,
+            image.filepath, image.is_dirty, image.is_float, space.name, space.is_data)
 
 
 def _file(image: Any) -> tuple[int, int]:

@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from ...scene.types import Image, Material, Texture, World
-from ..extract.images import Images, place
+from ...scene.types import Image, Light, Material, Texture, World
+from ..extract.images import Images
 from ..extract.materials import Materials
 from ..extract.textures import Textures
 from ..extract.world import read_world
 from .changes import Uid, uid_of
-from .images import KeptImages
+from .images import KeptImages, Key, key_of
 
 _TEXTURES = tuple(f.name for f in fields(Material) if f.name.endswith("_texture"))
 
@@ -22,15 +22,20 @@ _TEXTURES = tuple(f.name for f in fields(Material) if f.name.endswith("_texture"
 class Read:
     """A material or world as if there were no other: its textures and images are numbered from 0.
 
-    uids  of the images
+    keys  of the images
     """
 
     what: Any
     textures: tuple[Texture, ...]
     images: tuple[Image, ...]
-    uids: frozenset[Uid]
+    keys: frozenset[Key]
     uv_maps: frozenset[str]
     notes: tuple[str, ...]
+
+    @property
+    def uids(self) -> frozenset[Uid]:
+        """Of the images."""
+        return frozenset(uid for uid, _ in self.keys)
 
 
 class KeptMaterials:
@@ -103,9 +108,9 @@ class KeptMaterials:
         self.n_read += 1
         notes: dict[str, None] = {}
         images = _Noted(notes.setdefault, self._images)
-        materials = Materials(textures := Textures(images), notes.setdefault)
+        materials = Materials(textures := Textures(images), images, notes.setdefault)
         materials.index(material)
-        return Read(materials.found[0], tuple(textures.found), tuple(images.found), frozenset(images.uids),
+        return Read(materials.found[0], tuple(textures.found), tuple(images.found), frozenset(images.keys),
                     frozenset(materials.uv_maps[0]), tuple(notes))
 
 
@@ -118,11 +123,11 @@ class _Noted(Images):
 
     def __init__(self, warn: Callable[[str], object], source: KeptImages) -> None:
         super().__init__(warn, source)
-        self.uids: set[Uid] = set()
+        self.keys: set[Key] = set()
 
-    def index(self, image: Any, has_straight_alpha: bool = False) -> int:
-        self.uids |= {uid_of(image)} if image else set()
-        return super().index(image, has_straight_alpha)
+    def _index(self, image: Any, frame: int) -> int:
+        self.keys |= {key_of(image, frame)} if image else set()
+        return super()._index(image, frame)
 
 
 def read_world_alone(world: Any, source: KeptImages) -> Read:
@@ -130,21 +135,41 @@ def read_world_alone(world: Any, source: KeptImages) -> Read:
     notes: dict[str, None] = {}
     images = _Noted(notes.setdefault, source)
     read = read_world(world, images, notes.setdefault)
-    return Read(read, (), tuple(images.found), frozenset(images.uids), frozenset(), tuple(notes))
+    return Read(read, (), tuple(images.found), frozenset(images.keys), frozenset(), tuple(notes))
 
 
-def joined(used: list[Read], world: Read) -> dict[str, Any]:
+def read_images_of(lights: tuple[Light, ...], source: KeptImages) -> Read:
+    """What the graphs of lamps name."""
+    notes: dict[str, None] = {}
+    images = _Noted(notes.setdefault, source)
+    for light in lights:
+        images.add_named(light.graph)
+    return Read(None, (), tuple(images.found), frozenset(images.keys), frozenset(), tuple(notes))
+
+
+def joined(used: list[Read], lamps: Read, world: Read) -> dict[str, Any]:
     """Materials, textures, images and world of a Scene: each texture and image stands there once."""
     images: list[Image] = []
     textures: list[Texture] = []
     materials = []
     for read in used:
-        image_of = [place(image, images) for image in read.images]
+        image_of = _joined(read.images, images)
         texture_of = [_place(replace(texture, image=image_of[texture.image]), textures) for texture in read.textures]
         materials.append(_renumbered(read.what, texture_of))
-    image_of = [place(image, images) for image in world.images]
+    _joined(lamps.images, images)
+    image_of = _joined(world.images, images)
     return {"materials": tuple(materials), "textures": tuple(textures), "images": tuple(images),
             "world": _turned(world.what, image_of)}
+
+
+def _joined(own: tuple[Image, ...], images: list[Image]) -> list[int]:
+    """Where each of `own` stands among all `images`, to which those that are new are added, tiles together."""
+    known = {id(image): i for i, image in enumerate(images)}
+    for image in own:
+        if id(image) not in known:
+            known[id(image)] = len(images)
+            images.append(image)
+    return [known[id(image)] for image in own]
 
 
 def _renumbered(material: Material, texture_of: list[int]) -> Material:

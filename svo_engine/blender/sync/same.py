@@ -8,12 +8,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ...scene.types import Camera, Image, Instances, Light, Material, Mesh, Scene
+from ...scene.types import Camera, Instances, Light, Material, Mesh, Scene
 
 T = TypeVar("T")
 
-# Their names stand in messages only
-_NAMED = (Mesh, Instances, Material, Image, Light, Camera)
+# Their names stand in messages only; images are known by theirs
+_NAMED = (Mesh, Instances, Material, Light, Camera)
 
 
 def is_same(old: Any, new: Any) -> bool:

@@ -11,7 +11,7 @@ from ..extract import scene_camera
 from ..extract.visibility import hiding_of
 from .changes import Changes, Uid, changes_of, uid_of
 from .images import KeptImages
-from .materials import KeptMaterials, Read, joined, read_world_alone
+from .materials import KeptMaterials, Read, joined, read_images_of, read_world_alone
 from .meshes import KeptMeshes
 from .moves import follow
 from .same import keep, keep_fields
@@ -108,14 +108,15 @@ class Sync:
 
     def _assembled(self, depsgraph: Any, space: Any, found: Walk, world: Read) -> Scene:
         used = self.materials.used()
-        self.images.keep_only(world.uids.union(*(read.uids for read in used)))
-        notes = dict.fromkeys((*found.notes, *world.notes))
+        lamps = read_images_of(found.lights, self.images)
+        self.images.keep_only(world.keys.union(lamps.keys, *(read.keys for read in used)))
+        notes = dict.fromkeys((*found.notes, *lamps.notes, *world.notes))
         camera = None
         if space is None:
             camera = scene_camera(depsgraph, notes.setdefault, is_needed=depsgraph.mode == "RENDER")
-        parts = {"meshes": found.meshes, "instances": found.instances, "lights": found.lights, **joined(used, world),
-                 "camera": camera, "film_transparent": depsgraph.scene_eval.render.film_transparent,
-                 "warnings": tuple(notes)}
+        parts = {"meshes": found.meshes, "instances": found.instances, "lights": found.lights,
+                 **joined(used, lamps, world), "camera": camera,
+                 "film_transparent": depsgraph.scene_eval.render.film_transparent, "warnings": tuple(notes)}
         scene = self._kept(parts)
         self._walk = replace(found, meshes=scene.meshes, instances=scene.instances, lights=scene.lights)
         return scene

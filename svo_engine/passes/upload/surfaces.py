@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials, textures and their images on the device."""
+"""Materials and their textures on the device."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from ...gpu.scope import GpuScope
 from ...needs import has_alpha, is_matte
 from ...scene import layouts
 from ...scene.types import Image, Material, Texture
+from .pictures import upload_pictures
 from .trees import Trees
 
 
@@ -26,6 +27,7 @@ class Surfaces:
     opacities      the buffer of bind/opacity.glsl
     has_alpha      (n_materials,) bool: whether a ray may pass through it
     emission_unit  the highest radiance that any material sends out
+    limits         a sentence for each image that is smaller there
     """
 
     scope: GpuScope
@@ -37,23 +39,22 @@ class Surfaces:
     opacities: Buffer
     has_alpha: np.ndarray
     emission_unit: float
+    limits: tuple[str, ...]
 
 
 def upload_surfaces(device: Device, materials: tuple[Material, ...], textures: tuple[Texture, ...],
                     images: tuple[Image, ...], trees: Trees) -> Surfaces:
-    """Copy the materials, and the texels of all images if there is a texture."""
+    """Copy the materials, and the texels of the images that textures and trees read."""
     scope = device.scope()
-    words = [_words(image) for image in images] if textures else []
-    firsts = np.cumsum([0] + [len(w) for w in words])
-    device.profiler.counts["texture words"] = int(firsts[-1])
-    read = {
-        "Textures": scope.buffer("textures", _textures(textures, images, firsts)),
-        "Texels": scope.buffer("texels", np.concatenate(words) if words else np.zeros(0, "u4"))}
+    used = frozenset((*(texture.image for texture in textures), *trees.compiled.images))
+    pictures = upload_pictures(device, images, used)
+    scope.adopt(pictures.scope)
+    read = {"Textures": scope.buffer("textures", _textures(textures)), **pictures.read}
     return Surfaces(
         scope, materials, textures, images,
         {"Materials": scope.buffer("materials", _materials(materials, trees)), **read}, read,
         scope.buffer("opacities", _opacities(materials)), np.array([has_alpha(m) for m in materials], bool),
-        max((_emission_bound(m, textures, images) for m in materials), default=0.0))
+        max((_emission_bound(m, textures, images) for m in materials), default=0.0), pictures.limits)
 
 
 def _emission_bound(material: Material, textures: tuple[Texture, ...], images: tuple[Image, ...]) -> float:
@@ -85,19 +86,12 @@ def _opacities(materials: tuple[Material, ...]) -> np.ndarray:
     return rows
 
 
-def _words(image: Image) -> np.ndarray:
-    """The image's texels as words (n,) u4: one a texel of bytes, four a texel of floats."""
-    return np.ascontiguousarray(image.pixels).reshape(-1, 4).view("u4").ravel()
-
-
-def _textures(textures: tuple[Texture, ...], images: tuple[Image, ...], firsts: np.ndarray) -> np.ndarray:
+def _textures(textures: tuple[Texture, ...]) -> np.ndarray:
     rows = np.zeros(len(textures), layouts.dtype(layouts.TEXTURE))
     for row, texture in zip(rows, textures, strict=True):
-        image = images[texture.image]
-        kind = "FLOAT" if image.pixels.dtype != np.uint8 else "SRGB8" if image.is_srgb else "LINEAR8"
         row["u_from_uv"], row["v_from_uv"] = texture.uv_from_mesh[:3], texture.uv_from_mesh[3:]
-        row["first_word"], row["format"] = firsts[texture.image], layouts.CONSTANTS[f"FORMAT_{kind}"]
-        row["height"], row["width"] = image.pixels.shape[:2]
+        row["picture"] = texture.image
         row["extension"] = layouts.CONSTANTS[f"EXTENSION_{texture.extension}"]
         row["closest"], row["channel"] = texture.interpolation == "Closest", texture.channel
+        row["divides"] = texture.divides
     return rows

@@ -37,10 +37,10 @@ class Trees:
 def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[Image, ...]) -> Trees:
     """Compile the trees of those materials that have one of their own, and copy their values."""
     scope = device.scope()
-    names = {image.name: i for i, image in enumerate(images)}
+    names = {image.name: i for i, image in reversed(list(enumerate(images)))}  # of tiles the first
 
     def find_image(name: Any) -> int:
-        return names.get(name, 0)
+        return names.get(name, len(images))
 
     compiled = compile_materials(materials, find_image)
     return Trees(scope, compiled, tuple(map(tree_pass, compiled.structures)), scope.buffer("values", compiled.values))

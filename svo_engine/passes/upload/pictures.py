@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Texels on the device: all images in one texture of words, the largest of them halved where there is no room."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...gpu.device import Device
+from ...gpu.program import Resources
+from ...gpu.scope import GpuScope
+from ...gpu.words import WIDTH, room_for
+from ...scene import layouts
+from ...scene.types import Image
+
+
+@dataclass(frozen=True, eq=False)
+class Pictures:
+    """read: what bind/textures.glsl reads of images; limits: a sentence for each image that was halved."""
+
+    scope: GpuScope
+    read: Resources
+    limits: tuple[str, ...]
+
+
+def upload_pictures(device: Device, images: tuple[Image, ...], used: frozenset[int]) -> Pictures:
+    """Copy the images of these indices, with all of their tiles. All have a row, and one more row is for the missing."""
+    scope = device.scope()
+    numbers = [i for i, image in enumerate(images) if i in used or (image.tile and _first_tile(images, i) in used)]
+    pictures, limits = fitted([images[i] for i in numbers], room_for(device.calls, device.context.is_software))
+    words = [_words(image) for image in pictures]
+    firsts = np.cumsum([0] + [-(-len(w) // WIDTH) * WIDTH for w in words])
+    n_words = int(firsts[-2]) + len(words[-1]) if words else 0
+    device.profiler.counts["texture words"] = n_words
+    texels = scope.words("texels", n_words)
+    for first, part in zip(firsts[:-1], words, strict=True):
+        texels.put(int(first), part)
+    rows = np.zeros(len(images) + 1, layouts.dtype(layouts.PICTURE))
+    rows[numbers] = _rows(pictures, firsts)
+    return Pictures(scope, {"Pictures": scope.buffer("pictures", rows), "u_words": texels}, limits)
+
+
+def fitted(images: Sequence[Image], budget: int) -> tuple[list[Image], tuple[str, ...]]:
+    """The images, the largest at half its size again and again until all need no more than `budget` bytes."""
+    made, sentences = list(images), {}
+    sizes = [image.pixels.nbytes for image in made]
+    while sum(sizes) > budget and max(sizes) > 16:
+        i = int(np.argmax(sizes))
+        made[i] = replace(made[i], pixels=halved(made[i].pixels))
+        sizes[i] = made[i].pixels.nbytes
+        height, width = made[i].pixels.shape[:2]
+        sentences[i] = (f"Image '{made[i].name}' is read at {width}x{height} pixels: all images together do not fit "
+                        f"into {budget >> 20} MiB")
+    return made, tuple(sentences.values())
+
+
+def halved(pixels: np.ndarray) -> np.ndarray:
+    """Means of two by two pixels; of an odd row or column at the end nothing."""
+    for axis in (0, 1):
+        if (n := pixels.shape[axis]) > 1:
+            pairs = np.moveaxis(pixels, axis, 0)[: n // 2 * 2]
+            sums = pairs[::2].astype("f4") + pairs[1::2]
+            half = sums / 2 if pixels.dtype != np.uint8 else np.floor(sums / 2 + 0.5)
+            pixels = np.moveaxis(half.astype(pixels.dtype), 0, axis)
+    return np.ascontiguousarray(pixels)
+
+
+def _first_tile(images: tuple[Image, ...], i: int) -> int:
+    while i and images[i - 1].tile and images[i - 1].name == images[i].name:
+        i -= 1
+    return i
+
+
+def _words(image: Image) -> np.ndarray:
+    """The image's texels as words (n,) u4: one a texel of bytes, four a texel of floats."""
+    return np.ascontiguousarray(image.pixels).reshape(-1, 4).view("u4").ravel()
+
+
+def _rows(images: Sequence[Image], firsts: np.ndarray) -> np.ndarray:
+    rows = np.zeros(len(images), layouts.dtype(layouts.PICTURE))
+    n_tiles = 0
+    for i, (row, image) in reversed(list(enumerate(zip(rows, images, strict=True)))):
+        kind = "FLOAT" if image.pixels.dtype != np.uint8 else "SRGB8" if image.is_srgb else "LINEAR8"
+        row["first_word"], row["format"] = firsts[i], layouts.CONSTANTS[f"FORMAT_{kind}"]
+        row["height"], row["width"] = image.pixels.shape[:2]
+        row["is_associated"], row["tile"] = image.is_associated, image.tile
+        goes_on = i + 1 < len(images) and image.tile and images[i + 1].tile and images[i + 1].name == image.name
+        n_tiles = row["n_tiles"] = n_tiles + 1 if goes_on else 1
+    return rows
