@@ -34,6 +34,7 @@ class Image:
     pixels         (height, width, 4) u1 or f4. u1 is sRGB-encoded when `is_srgb`; f4 is scene-linear
     is_associated  RGB was multiplied by alpha, bytes as they are encoded. Who reads alpha as well divides by it
     tile           its UDIM number, 0 for all others. The tiles of an image have its name and follow one another
+    n_tiles        how many of them there are from this one on
     """
 
     name: str
@@ -41,12 +42,18 @@ class Image:
     is_srgb: bool = False
     is_associated: bool = False
     tile: int = 0
+    n_tiles: int = 1
 
     def __post_init__(self) -> None:
         dtype = "u1" if self.pixels.dtype == np.uint8 else "f4"
         check(f"Image '{self.name}'", "pixels", self.pixels, dtype, (None, None, 4))
         if self.is_srgb and dtype == "f4":
             raise SceneError(f"Image '{self.name}': float pixels are scene-linear and cannot be sRGB-encoded")
+
+    @cached_property
+    def plain(self) -> Image:
+        """As `Scene.plain`."""
+        return with_fields(self, name="")
 
 
 def frame_name(name: str, frame: int) -> str:
@@ -282,8 +289,14 @@ class Scene:
         instances = self.instances.shaded if shaded else self.instances.plain
         return with_fields(
             self, meshes=tuple(m.shaded if i in shaded else m.plain for i, m in enumerate(self.meshes)),
-            instances=instances, materials=tuple(m.plain for m in self.materials),
+            instances=instances, materials=tuple(m.plain for m in self.materials), images=self._plain_images,
             lights=tuple(light.plain for light in self.lights), world=self.world.plain)
+
+    @property
+    def _plain_images(self) -> tuple[Image, ...]:
+        """Images without names, unless there are trees that name them."""
+        has_trees = any(not m.is_exact for m in self.materials)
+        return self.images if has_trees else tuple(image.plain for image in self.images)
 
     @property
     def _shaded(self) -> set[int]:

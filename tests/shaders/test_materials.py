@@ -93,7 +93,8 @@ def test_alpha_is_divided_out_after_the_filter(device, kind):
 
 def test_tiles_lie_where_their_numbers_say(device):
     """Beyond them is magenta, as in Cycles, and coordinates below zero belong to the first."""
-    tiles = tuple(Image("T", np.full((2, 2, 4), n / 10, "f4"), tile=n + 1000) for n in (1, 2, 11))
+    tiles = tuple(Image("T", np.full((2, 2, 4), n / 10, "f4"), tile=n + 1000, n_tiles=3 - i)
+                  for i, n in enumerate((1, 2, 11)))
     scene = Scene(images=(Image("Other", FLOATS), *tiles), textures=(Texture(1),))
     uv = np.array([[0.5, 0.5], [1.5, 0.5], [0.5, 1.5], [1.5, 1.5], [2.5, 0.5], [-0.5, 0.5]], "f4")
     found = on_device(device, "vec3", "texture_color(0, uv)", scene, uv=uv)

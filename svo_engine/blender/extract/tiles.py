@@ -39,7 +39,7 @@ def read_tiles(image: Any, warn: Warn) -> tuple[Image, ...]:
     if missing:
         which = ", ".join(map(str, missing))
         warn(f"Image '{image.name}': its tiles {which} cannot be read; they are drawn in magenta")
-    return tuple(made)
+    return tuple(replace(image, n_tiles=len(made) - i) for i, image in enumerate(made))
 
 
 def read_frame(image: Any, frame: int, warn: Warn) -> Image:

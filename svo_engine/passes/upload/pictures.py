@@ -26,9 +26,9 @@ class Pictures:
 
 
 def upload_pictures(device: Device, images: tuple[Image, ...], used: frozenset[int]) -> Pictures:
-    """Copy the images of these indices, with all of their tiles. All have a row, and one more row is for the missing."""
+    """Copy the images of these indices, with all of their tiles. All images have a row, and one more is of none."""
     scope = device.scope()
-    numbers = [i for i, image in enumerate(images) if i in used or (image.tile and _first_tile(images, i) in used)]
+    numbers = sorted({i + tile for i in used if i < len(images) for tile in range(images[i].n_tiles)})
     pictures, limits = fitted([images[i] for i in numbers], room_for(device.calls, device.context.is_software))
     words = [_words(image) for image in pictures]
     firsts = np.cumsum([0] + [-(-len(w) // WIDTH) * WIDTH for w in words])
@@ -67,12 +67,6 @@ def halved(pixels: np.ndarray) -> np.ndarray:
     return np.ascontiguousarray(pixels)
 
 
-def _first_tile(images: tuple[Image, ...], i: int) -> int:
-    while i and images[i - 1].tile and images[i - 1].name == images[i].name:
-        i -= 1
-    return i
-
-
 def _words(image: Image) -> np.ndarray:
     """The image's texels as words (n,) u4: one a texel of bytes, four a texel of floats."""
     return np.ascontiguousarray(image.pixels).reshape(-1, 4).view("u4").ravel()
@@ -80,12 +74,9 @@ def _words(image: Image) -> np.ndarray:
 
 def _rows(images: Sequence[Image], firsts: np.ndarray) -> np.ndarray:
     rows = np.zeros(len(images), layouts.dtype(layouts.PICTURE))
-    n_tiles = 0
-    for i, (row, image) in reversed(list(enumerate(zip(rows, images, strict=True)))):
+    for row, image, first in zip(rows, images, firsts[:-1], strict=True):
         kind = "FLOAT" if image.pixels.dtype != np.uint8 else "SRGB8" if image.is_srgb else "LINEAR8"
-        row["first_word"], row["format"] = firsts[i], layouts.CONSTANTS[f"FORMAT_{kind}"]
+        row["first_word"], row["format"] = first, layouts.CONSTANTS[f"FORMAT_{kind}"]
         row["height"], row["width"] = image.pixels.shape[:2]
-        row["is_associated"], row["tile"] = image.is_associated, image.tile
-        goes_on = i + 1 < len(images) and image.tile and images[i + 1].tile and images[i + 1].name == image.name
-        n_tiles = row["n_tiles"] = n_tiles + 1 if goes_on else 1
+        row["is_associated"], row["tile"], row["n_tiles"] = image.is_associated, image.tile, image.n_tiles
     return rows
