@@ -100,6 +100,60 @@ def test_mute_and_reroute(empty):
     assert by_name(graph, "Emission").inputs["Strength"] == 1
 
 
+@pytest.mark.parametrize("kind", ["Mapping", "TexNoise", None])
+def test_dead_ends_count_for_nothing(empty, kind):
+    """Through reroutes and muted nodes: what asks takes what it has without a link, as Cycles shows it."""
+    nodes = material()
+    node = nodes.new(kind) if kind else nodes.tree.nodes.new("NodeReroute")
+    node.mute = kind is not None
+    bend = nodes.tree.nodes.new("NodeReroute")
+    nodes.tree.links.new(node.outputs[0], bend.inputs[0])
+    texture = nodes.new("TexChecker", Vector=bend)
+    nodes.show(nodes.new("Emission", Color=texture, Strength=bend))
+    graph = graph_of(nodes)
+    assert {n.kind for n in graph.nodes} == {"ShaderNodeTexChecker", "ShaderNodeEmission"}
+    assert by_name(graph, "Checker Texture").inputs["Vector"] is None
+    assert by_name(graph, "Emission").inputs["Strength"] == 1
+
+
+def test_hidden_colours_count_and_hidden_vectors_do_not(empty):
+    nodes = material()
+    nodes.show(nodes.new("Emission", Color=nodes.new("Gamma"), Strength=nodes.new("LayerWeight")))
+    graph = graph_of(nodes)
+    assert by_name(graph, "Gamma").inputs["Color"] == (1, 1, 1, 1)
+    assert by_name(graph, "Layer Weight").inputs["Normal"] is None
+
+
+@pytest.mark.skipif(not hasattr(bpy.types.Material, "inline_shader_nodes"), reason="Blender 5 brought it")
+def test_loops_are_as_blender_unrolls_them(empty):
+    nodes = material()
+    start, end = (nodes.tree.nodes.new(f"GeometryNodeRepeat{side}") for side in ("Input", "Output"))
+    start.pair_with_output(end)
+    end.repeat_items.new("FLOAT", "Value")
+    more = nodes.new("Math", Value_001=0.25)
+    nodes.set(more, "Value", start.outputs["Value"])
+    nodes.tree.links.new(more.outputs[0], end.inputs["Value"])
+    start.inputs["Iterations"].default_value = 3
+    nodes.tree.links.new(nodes.new("TexNoise").outputs[0], start.inputs["Value"])
+    nodes.show(nodes.new("Emission", Strength=end.outputs["Value"]))
+    kinds = [n.kind for n in graph_of(nodes).nodes]
+    assert sorted(kinds) == ["ShaderNodeEmission", *["ShaderNodeMath"] * 3, "ShaderNodeTexNoise"]
+
+
+def test_text_of_a_file(empty, tmp_path):
+    (tmp_path / "file").write_text("IESNA")
+    nodes = material()
+    for path in (tmp_path / "file", tmp_path / "none"):
+        node = nodes.new("TexIES")
+        node.mode, node.filepath = "EXTERNAL", str(path)
+        nodes.set(nodes.new("Math"), "Value", node)
+    first, second = (n for n in nodes.tree.nodes if n.bl_idname == "ShaderNodeMath")
+    nodes.set(first, "Value 001", second)
+    nodes.show(nodes.new("Emission", Strength=first))
+    found = [n.settings["ies.text"] for n in graph_of(nodes).nodes if n.kind == "ShaderNodeTexIES"]
+    assert sorted(found, key=str) == ["IESNA", None]
+
+
 def test_cycle(empty):
     nodes = material()
     first, second = nodes.new("Math"), nodes.new("Math")

@@ -33,7 +33,7 @@ def extract(depsgraph: bpy.types.Depsgraph, *, space: bpy.types.SpaceView3D | No
     images = Images(warn)
     textures = Textures(images)
     materials = Materials(textures, images, warn)
-    placing = Placing(materials, layer.material_override, warn)
+    placing = Placing(materials, depsgraph, warn)
     for instance, matrix in visits(depsgraph, matrices_of(depsgraph)):
         if instance.show_self and is_seen(instance, space):
             placing.visit(instance, matrix)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -23,7 +24,13 @@ _NOT_READ = {"color_mapping", "bytecode", "bytecode_hash", "use_auto_update"}
 _MAPPED = ("vector_type", "translation", "rotation", "scale", "mapping_x", "mapping_y", "mapping_z")
 _IMAGE_USER = ("frame_current", "frame_duration", "frame_start", "frame_offset", "use_cyclic", "tile")
 
+# Nodes that may name a file of text -> what holds it, as if it were a text block
+_READ = {"ShaderNodeTexIES": "ies.text", "ShaderNodeScript": "script.text"}
+_LARGEST_TEXT = 1 << 22
+
 _SCALARS = {type(None), bool, int, float, str}
+
+_OF_ALL_TREES = {"NodeReroute", "NodeFrame", "NodeGroupInput", "NodeGroupOutput"}
 
 # The socket at the end of a group that makes a new one of what is linked to it
 _VIRTUAL = "__extend__"
@@ -36,12 +43,29 @@ def read_graph(tree: Any, owner: Any) -> Graph | None:
     """What the active output of `tree`, the node tree of the datablock `owner`, reaches; None without a tree."""
     if tree is None:
         return None
+    if hasattr(owner, "inline_shader_nodes") and _has_zones(tree, set()):  # Blender 5 brought both
+        inlined = owner.inline_shader_nodes()  # its tree lives as long as it does
+        tree = inlined.node_tree
     end = tree.get_output_node("CYCLES") or tree.get_output_node("EEVEE")
     groups: dict[str, Any] = {}
     nodes, found, aovs = _read(tree, end, groups)
     ends = {name: link for name, link in found.items() if isinstance(link, Link)}
     return Graph(nodes, ends.get("Surface"), ends.get("Volume"), ends.get("Displacement"), aovs,
                  _read_groups(groups), _settings_of(owner))
+
+
+def _has_zones(tree: Any, seen: set[str]) -> bool:
+    """Whether `tree` or a group in it has nodes that Blender takes away for renderers: loops, closures, bundles."""
+    seen.add(tree.name_full)
+    for node in tree.nodes:
+        kind = node.bl_idname
+        if kind == "ShaderNodeGroup":
+            inner = node.node_tree
+            if inner is not None and inner.name_full not in seen and _has_zones(inner, seen):
+                return True
+        elif not kind.startswith("ShaderNode") and kind not in _OF_ALL_TREES:
+            return True
+    return False
 
 
 def _read_groups(trees: dict[str, Any]) -> dict[str, Group]:
@@ -79,11 +103,41 @@ _Feeds = dict[int, dict[int, tuple[Any, str]]]
 def _feeds(tree: Any) -> _Feeds:
     """All links that count. One walk over them: to ask each socket for its own is quadratic."""
     feeds: _Feeds = {}
+    passing: dict[int, Any] = {}
     for link in tree.links:
-        if link.is_valid and not link.is_muted and link.from_node is not None and link.to_node is not None:
+        before = link.from_node
+        if link.is_valid and not link.is_muted and before is not None and link.to_node is not None:
             sockets = feeds.setdefault(link.to_node.as_pointer(), {})
-            sockets.setdefault(link.to_socket.as_pointer(), (link.from_node, link.from_socket.identifier))
-    return feeds
+            sockets.setdefault(link.to_socket.as_pointer(), (before, link.from_socket.identifier))
+            if before.mute or before.bl_idname == "NodeReroute":
+                passing[before.as_pointer()] = before
+    return _without_dead_ends(feeds, passing) if passing else feeds
+
+
+def _without_dead_ends(feeds: _Feeds, passing: dict[int, Any]) -> _Feeds:
+    """`feeds` without those that lead back, through nodes that only pass on, to an input that nothing feeds: it does
+    not count what such an input has, but what the one has that asks."""
+    ways = {pointer: _ways(node) for pointer, node in passing.items()}
+
+    def is_fed(node: Any, output: str) -> bool:
+        seen = set()
+        while (pointer := node.as_pointer()) in ways and (pointer, output) not in seen:
+            seen.add((pointer, output))
+            before = feeds.get(pointer, {}).get(ways[pointer].get(output, 0))
+            if before is None:
+                return False
+            node, output = before
+        return pointer not in ways
+
+    return {to: {socket: before for socket, before in sockets.items() if is_fed(*before)}
+            for to, sockets in feeds.items()}
+
+
+def _ways(node: Any) -> dict[str, int]:
+    """Of a node that only passes on: output -> address of the input behind it."""
+    if node.bl_idname == "NodeReroute":
+        return {node.outputs[0].identifier: node.inputs[0].as_pointer()}
+    return {link.to_socket.identifier: link.from_socket.as_pointer() for link in node.internal_links}
 
 
 def _reached(feeds: _Feeds, ends: Iterable[Any]) -> set[int]:
@@ -100,7 +154,9 @@ def _reached(feeds: _Feeds, ends: Iterable[Any]) -> set[int]:
 
 
 def _inputs(node: Any, feeds: _Feeds, place: dict[int, int]) -> dict[str, Plain]:
-    fed = feeds.get(node.as_pointer(), {})
+    """What feeds each input. A hidden value is that of a vector which stands for a normal or for coordinates, but for
+    colours, and groups' own inputs: there it counts."""
+    fed, is_group = feeds.get(node.as_pointer(), {}), node.bl_idname == "ShaderNodeGroup"
     made: dict[str, Plain] = {}
     for socket in node.inputs:
         if socket.is_unavailable or (identifier := socket.identifier) == _VIRTUAL:
@@ -109,7 +165,8 @@ def _inputs(node: Any, feeds: _Feeds, place: dict[int, int]) -> dict[str, Plain]
         if before is not None and (number := place.get(before[0].as_pointer())) is not None:
             made[identifier] = Link(number, before[1])
         else:
-            made[identifier] = None if socket.hide_value else _plain(getattr(socket, "default_value", None))
+            has_constant = not socket.hide_value or socket.type == "RGBA" or is_group
+            made[identifier] = _plain(getattr(socket, "default_value", None)) if has_constant else None
     return made
 
 
@@ -137,7 +194,18 @@ def _settings(node: Any, groups: dict[str, Any]) -> dict[str, Plain]:
             groups.setdefault(value.name_full, value)
     if node.bl_idname in ("ShaderNodeRGB", "ShaderNodeValue", "ShaderNodeNormal"):  # their value is their output's
         made["value"] = _plain(node.outputs[0].default_value)
+    elif getattr(node, "mode", "") == "EXTERNAL" and node.bl_idname in _READ:
+        made[_READ[node.bl_idname]] = _text_of(node)
     return made
+
+
+def _text_of(node: Any) -> str | None:
+    """What the file of a node holds; None if it cannot be read."""
+    try:
+        path = Path(bpy.path.abspath(node.filepath, library=node.id_data.library))
+        return path.read_text(encoding="latin-1") if path.stat().st_size <= _LARGEST_TEXT else None
+    except (OSError, ValueError):
+        return None
 
 
 def _set(made: dict[str, Plain], name: str, value: Any) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from ...scene.types import Instances, Light, Mesh
 from .identities import Identities
 from .lights import read_light
+from .lookups import Lookups, asked_for
 from .materials import Collector
 from .meshes import read_mesh, uv_map_of
 
@@ -42,12 +43,12 @@ def visits(depsgraph: Any, matrices: np.ndarray) -> Iterator[tuple[Any, np.ndarr
 class Placing:
     """Collects what `visit` is given, one object instance of the depsgraph at a time."""
 
-    def __init__(self, materials: Collector, override: Any, warn: Callable[[str], object],
+    def __init__(self, materials: Collector, depsgraph: Any, warn: Callable[[str], object],
                  read: Callable[..., Mesh | None] = read_mesh) -> None:
         self.meshes: list[Mesh] = []
         self.lights: list[Light] = []
         self._materials = materials
-        self._override = override
+        self._override = depsgraph.view_layer_eval.material_override
         self._warn = warn
         self._read = read
         self._mesh_index: dict[int, int] = {}  # by address of the evaluated data: their names are not unique
@@ -58,6 +59,8 @@ class Placing:
         self._slots: list[tuple[int, ...]] = []
         self._slots_of: dict[tuple[int, int], tuple[int, ...]] = {}  # by address of the original object and its data
         self._identities = Identities()
+        self._lookups = Lookups(depsgraph.view_layer_eval, depsgraph.scene_eval)
+        self._asked: dict[tuple[int, ...], frozenset[tuple[str, str]]] = {}  # by slots
 
     def visit(self, instance: Any, matrix: np.ndarray) -> None:
         """Add what `instance` shows at `matrix`, one of `matrices_of`."""
@@ -86,8 +89,9 @@ class Placing:
             return Instances.empty()
         first_slot = np.cumsum([0, *map(len, self._slots)])
         slots = [material for materials in self._slots for material in materials]
-        return Instances(tuple(self._names), np.array(self._mesh, "u4"), np.stack(self._matrices),
-                         first_slot.astype("u4"), np.array(slots, "u4"), **self._identities.arrays())
+        return Instances(
+            tuple(self._names), np.array(self._mesh, "u4"), np.stack(self._matrices), first_slot.astype("u4"),
+            np.array(slots, "u4"), **self._identities.arrays(), attributes=self._lookups.attributes(len(self._names)))
 
     def _place(self, instance: Any, owner: Any, matrix: np.ndarray) -> None:
         index = self._index(owner)
@@ -102,7 +106,17 @@ class Placing:
             self._slots_of[key] = tuple(self._materials.index(m) for m in self._slot_materials(owner))
             for material in self._slots_of[key]:
                 self._check_uv_map(material, index)
-        self._slots.append(self._slots_of[key])
+        slots = self._slots_of[key]
+        self._slots.append(slots)
+        if asked := self._asked_by(slots):
+            self._lookups.note(len(self._slots) - 1, instance, owner, asked)
+
+    def _asked_by(self, slots: tuple[int, ...]) -> frozenset[tuple[str, str]]:
+        """What the materials in `slots` ask of an instance."""
+        if slots not in self._asked:
+            shown = [self._materials.found[i] for i in slots]
+            self._asked[slots] = frozenset().union(*(asked_for(m.graph) for m in shown if not m.is_exact))
+        return self._asked[slots]
 
     def _index(self, owner: Any) -> int:
         """Where the owner's mesh stands in `meshes`; -1 if it has no triangles."""

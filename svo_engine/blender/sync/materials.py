@@ -9,6 +9,7 @@ from typing import Any
 
 from ...scene.types import Image, Light, Material, Texture, World
 from ..extract.images import Images
+from ..extract.lookups import asked_for
 from ..extract.materials import Materials
 from ..extract.textures import Textures
 from ..extract.world import read_world
@@ -22,7 +23,8 @@ _TEXTURES = tuple(f.name for f in fields(Material) if f.name.endswith("_texture"
 class Read:
     """A material or world as if there were no other: its textures and images are numbered from 0.
 
-    keys  of the images
+    keys   of the images
+    asked  what a material's nodes ask of the instances that show it
     """
 
     what: Any
@@ -31,6 +33,7 @@ class Read:
     keys: frozenset[Key]
     uv_maps: frozenset[str]
     notes: tuple[str, ...]
+    asked: frozenset[tuple[str, str]] = frozenset()
 
     @property
     def uids(self) -> frozenset[Uid]:
@@ -88,13 +91,18 @@ class KeptMaterials:
             self._read.pop(uid, None)
 
     def follow(self, changed: dict[Uid, Any]) -> bool:
-        """Read again those that are used, without a walk; False if that does not do: warnings stand in its order."""
+        """Read again those that are used, without a walk; False if that does not do: warnings stand in its order, and
+        it looks up what they ask of instances."""
         for uid in changed.keys() & self._index.keys():
             last = self._read[uid]
             read = self._read[uid] = self._read_alone(changed[uid])
-            if (read.notes, read.uv_maps) != (last.notes, last.uv_maps):
+            if (read.notes, read.uv_maps, read.asked) != (last.notes, last.uv_maps, last.asked):
                 return False
         return True
+
+    def ask_more(self) -> bool:
+        """Whether any that is used asks of instances what only a walk finds."""
+        return any(self._read[uid].asked for uid in self.order)
 
     def images_of(self, uid: Uid) -> frozenset[Uid]:
         """The images that a material reads; none if nothing shows it."""
@@ -110,8 +118,10 @@ class KeptMaterials:
         images = _Noted(notes.setdefault, self._images)
         materials = Materials(textures := Textures(images), images, notes.setdefault)
         materials.index(material)
-        return Read(materials.found[0], tuple(textures.found), tuple(images.found), frozenset(images.keys),
-                    frozenset(materials.uv_maps[0]), tuple(notes))
+        read = materials.found[0]
+        return Read(read, tuple(textures.found), tuple(images.found), frozenset(images.keys),
+                    frozenset(materials.uv_maps[0]), tuple(notes),
+                    frozenset() if read.is_exact else asked_for(read.graph))
 
 
 def _differing(read: Read) -> Read:

@@ -82,6 +82,8 @@ class Sync:
 
     def _followed(self, last: Walk, depsgraph: Any, space: Any, changes: Changes) -> Walk | None:
         """`last` after `changes`, without a walk; None if that does not do."""
+        if (changes.has_scene or changes.moved) and self.materials.ask_more():
+            return None
         if changes.has_scene:
             if (hiding_of(space), _override_uid(depsgraph)) != (self._hides, self._override):
                 return None

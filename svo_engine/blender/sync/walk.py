@@ -94,7 +94,7 @@ def walk(depsgraph: Any, space: Any, materials: KeptMaterials, meshes: KeptMeshe
     """Visit all instances. `begin` and `end` of what is kept are the caller's."""
     notes = _Notes()
     materials.begin(notes.warn)
-    placing = Placing(materials, depsgraph.view_layer_eval.material_override, notes.warn, meshes.read)
+    placing = Placing(materials, depsgraph, notes.warn, meshes.read)
     matrices = matrices_of(depsgraph)
     places = Places(len(matrices))
     for position, (instance, matrix) in enumerate(visits(depsgraph, matrices)):
