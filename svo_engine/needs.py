@@ -34,6 +34,7 @@ class Needs:
     glass          a used material transmits: light is drawn from behind it as well
     path_vertices  the most vertices of a path, the eye's own included; 2 where no mirror shows another one
     skips          whether anything is skipped; a developer's setting, to show that pictures do not depend on it
+    trees          a used material is a compiled tree of nodes
     """
 
     light: bool
@@ -47,6 +48,7 @@ class Needs:
     glass: bool
     path_vertices: int
     skips: bool
+    trees: bool = False
 
     def told(self) -> dict[str, str]:
         """What is skipped -> why."""
@@ -66,22 +68,23 @@ _REASONS = {
 
 def needs_of(scene: Scene, settings: RenderSettings, compiled: Compiled | None = None) -> Needs:
     """Look at the materials that instances name, by their compiled trees if they have some, the lamps and the world."""
-    if not settings.skip_unneeded:
-        return Needs(light=True, lamps=True, emission=True, world=True, principled=True, textures=True, alpha=True,
-                     gloss=True, glass=True, path_vertices=LONGEST_PATH, skips=False)
     numbers = np.unique(scene.instances.slot_materials)
     trees = [t for i in numbers if compiled and (t := compiled.traits[i])]
+    if not settings.skip_unneeded:
+        return Needs(light=True, lamps=True, emission=True, world=True, principled=True, textures=True,
+                     alpha=True, gloss=True, glass=True, path_vertices=LONGEST_PATH, skips=False, trees=bool(trees))
     used = [scene.materials[i] for i in numbers if not (compiled and compiled.traits[i])]
     lamps = any(max(light.emitted) > 0 for light in scene.lights)
     emission = any(max(m.emission) > 0 for m in used) or any(t.emits for t in trees)
     world = max(scene.world.radiance) > 0
+    gloss = any(is_glossy(m) for m in used) or any(t.mirrors for t in trees)
+    mirror = any(is_mirror(m) for m in used) or any(t.mirrors for t in trees)
     return Needs(
         light=lamps or emission or world, lamps=lamps, emission=emission, world=world,
         principled=any(not is_matte(m) for m in used), textures=bool(trees) or any(max(m.textures) >= 0 for m in used),
-        alpha=any(has_alpha(m) for m in used), gloss=any(is_glossy(m) for m in used) or any(t.mirrors for t in trees),
+        alpha=any(has_alpha(m) for m in used) or any(t.passes for t in trees), gloss=gloss,
         glass=any(m.transmission > 0 for m in used) or any(t.transmits for t in trees),
-        path_vertices=LONGEST_PATH if any(is_mirror(m) for m in used) or any(t.mirrors for t in trees) else 2,
-        skips=True)
+        path_vertices=LONGEST_PATH if mirror else 2, skips=True, trees=bool(trees))
 
 
 def is_glossy(material: Material) -> bool:

@@ -176,7 +176,7 @@ def _tracer(stage: Stage, gpu_scene: GpuScene) -> Tracer:
 
 
 def _lights(stage: Stage, gpu_scene: GpuScene) -> Lights:
-    glow = stage("glow", make_glow, gpu_scene.placing, gpu_scene.surfaces, gpu_scene.sky, gpu_scene.scene.world)
+    glow = stage("glow", make_glow, gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world)
     return stage("lights", make_lights, gpu_scene.lamps, glow)
 
 
@@ -184,9 +184,9 @@ def _cache(stage: Stage, gpu_scene: GpuScene, tracer: Tracer, lights: Lights, se
            n: int) -> LightCache:
     sky, world = gpu_scene.sky, gpu_scene.scene.world
     octree = stage("octree", build_octree, *gpu_scene.matter, n)
-    links = stage("links", link, gpu_scene.placing, gpu_scene.surfaces, octree, tracer, lights.glow, sky, world,
+    links = stage("links", link, gpu_scene.placing, gpu_scene.looks, octree, tracer, lights.glow, sky, world,
                   settings.cache_rays, settings.injection_samples)
-    return stage("cache", light_cache, gpu_scene.placing, gpu_scene.surfaces, links, tracer, lights, sky, world,
+    return stage("cache", light_cache, gpu_scene.placing, gpu_scene.looks, links, tracer, lights, sky, world,
                  settings.bounces)
 
 

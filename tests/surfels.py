@@ -101,11 +101,11 @@ def lit_surfels(device: Device, scene: Scene, n: int = 32, rays: int = 16, point
         octree, trees = keep(build_octree(device, *gpu_scene.matter, n)), keep(build_meshes(device, scene.meshes))
         bvh = keep(build_bvh(device, gpu_scene.placing, trees))
         tracer = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
-        placing, surfaces, sky, world = gpu_scene.placing, gpu_scene.surfaces, gpu_scene.sky, gpu_scene.scene.world
-        glow = keep(make_glow(device, placing, surfaces, sky, world))
+        placing, looks, sky, world = gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world
+        glow = keep(make_glow(device, placing, looks, sky, world))
         lights = keep(make_lights(device, gpu_scene.lamps, glow))
-        links = keep(link(device, placing, surfaces, octree, tracer, glow, sky, world, rays, points))
-        cache = keep(light_cache(device, placing, surfaces, links, tracer, lights, sky, world, bounces))
+        links = keep(link(device, placing, looks, octree, tracer, glow, sky, world, rays, points))
+        cache = keep(light_cache(device, placing, looks, links, tracer, lights, sky, world, bounces))
         surfels, n_bounces = read_surfels(gpu_scene, octree), cache.n_bounces()
         bits = cache.entries.read(16 * PARTS * 2 * len(surfels.rows)) if len(surfels.rows) else b""
     parts = np.frombuffer(bits, "f4").astype("f8").reshape(PARTS, len(surfels.rows), 2, 4)[..., :3]

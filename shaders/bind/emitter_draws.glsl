@@ -2,7 +2,7 @@
 // Purpose: points on emissive triangles, with what their material sends out.
 
 #include "bind/emitters.glsl"
-#include "bind/materials.glsl"
+#include "bind/looks.glsl"
 
 // Draw k of u_n_emitter_draws, without shadows.
 LightDraw draw_emitter(int k, vec3 p, vec3 normal, uint sample_index, uint seed)
@@ -17,9 +17,7 @@ LightDraw draw_emitter(int k, vec3 p, vec3 normal, uint sample_index, uint seed)
     TriangleDraw draw = draw_triangle(corners_from(p, emitter.y, emitter.z), u.xy);
     if (draw.solid_angle == 0.0)
         return NO_DRAW;
-    Material m = materials[material_of(emitter.y, emitter.z)];
-    vec2 uv = uv_at(emitter.z, draw.bary);
-    vec3 L = emission_at(m, uv) * clamp(alpha_at(m, uv), 0.0, 1.0);
+    vec3 L = emission_of(emitter.y, emitter.z, draw.bary) * cover_of(emitter.y, emitter.z, draw.bary);
     float density = float(u_n_emitter_draws) * probability / draw.solid_angle;
     return LightDraw(draw.wi, draw.distance, L / density, density);
 }

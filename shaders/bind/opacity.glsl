@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: what rays know of materials: which share of them each one stops. All else is for programs that trace nothing.
 
-#include "bind/instances.glsl"
+#include "bind/baked.glsl"
 #include "bind/textures.glsl"
 
 layout(std430) readonly buffer Opacities { Opacity opacities[]; };  // of each material
@@ -9,6 +9,9 @@ layout(std430) readonly buffer Cutouts { uint cutouts[]; };         // of each i
 
 float opacity_at(uint instance, uint triangle, vec2 bary)
 {
+    uint at = baked_at(instance, triangle, bary);
+    if (at != NOT_BAKED)
+        return uintBitsToFloat(texelFetch(u_baked, int(at)).y);
     Opacity o = opacities[material_of(instance, triangle)];
     return o.alpha_texture >= 0 ? o.alpha * texture_value(o.alpha_texture, uv_at(triangle, bary)) : o.alpha;
 }

@@ -7,7 +7,7 @@
 // Invocation: one side of one surfel
 
 #include "bind/emitters.glsl"
-#include "bind/materials.glsl"
+#include "bind/looks.glsl"
 #include "cache/side.glsl"
 
 layout(local_size_x = 64) in;
@@ -32,7 +32,7 @@ void main()
         uvec4 hit = link_hits[k * u_n_sides + side];
         if (hit.x == BVH_NONE)
             continue;
-        vec3 L = emission_at(materials[material_of(hit.x, hit.y)], uv_at(hit.y, uintBitsToFloat(hit.zw)));
+        vec3 L = emission_of(hit.x, hit.y, uintBitsToFloat(hit.zw));
         if (L == vec3(0.0))
             continue;
         vec3 local = cosine_direction(sobol_point(k, hash(side))), d = frame * local;

@@ -34,5 +34,7 @@ void evaluate(uint slot)
     Point p = point_of(hit, seen.surface, facing(c.normal, wo));
     p.diffuse = c.diffuse;
     p.emission = c.emission;
+    if (u_wants_mean)
+        p.chance = 1.0 - clamp(dot(c.transparency, vec3(1.0 / 3.0)), 0.0, 1.0);
     put_point(u_set, slot, p);
 }

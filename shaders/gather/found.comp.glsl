@@ -6,7 +6,7 @@
 // Invocation: one pixel
 
 #include "bind/emitters.glsl"
-#include "bind/materials.glsl"
+#include "bind/looks.glsl"
 #include "bind/wave.glsl"
 
 layout(local_size_x = 64) in;
@@ -28,7 +28,7 @@ void main()
         uvec4 hit = wave[at_plane(u_ends + uint(k), slot)];
         if (hit.x == BVH_NONE)
             continue;
-        vec3 L = emission_at(materials[material_of(hit.x, hit.y)], uv_at(hit.y, uintBitsToFloat(hit.zw)));
+        vec3 L = emission_of(hit.x, hit.y, uintBitsToFloat(hit.zw));
         if (L == vec3(0.0))
             continue;
         vec3 local = cosine_direction(sobol_point(p.number * uint(u_n_rays) + uint(k), p.seed));

@@ -75,6 +75,7 @@ struct Material {
     int normal_texture;
     uint program;
     uint first_value;
+    float detail;
 };
 
 struct Opacity {

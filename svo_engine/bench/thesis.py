@@ -81,8 +81,8 @@ def occupy(device: Device, gpu_scene: Any, n: int) -> int:
 
 def voxelize_whole(device: Device, gpu_scene: Any, n: int) -> int:
     """Voxels with the means of their surfaces; their number."""
-    placing, surfaces, table = gpu_scene.matter
-    made = voxelize(device, placing, surfaces, table, n)
+    placing, looks, table = gpu_scene.matter
+    made = voxelize(device, placing, looks, table, n)
     made.scope.close()
     return made.n_voxels
 

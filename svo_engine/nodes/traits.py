@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .closures import Leaf, Weighted
-from .expr import Constant, Expr
+from .emit import in_order
+from .expr import Call, Constant, Expr
 from .signatures import library
 
 _DIFFUSE = {"closure_diffuse", "closure_emission", "closure_transparent", "closure_translucent", "closure_holdout",
@@ -18,13 +19,15 @@ _GLASS = {"closure_glass", "closure_refraction"}
 @dataclass(frozen=True)
 class Traits:
     """emits: sends out light; mirrors: reflects or transmits other than diffusely; transmits: through the surface;
-    passes: lets rays pass as they came.
+    passes: lets rays pass as they came; varies: is not the same
+    everywhere.
     """
 
     emits: bool
     mirrors: bool
     transmits: bool
     passes: bool
+    varies: bool
 
 
 def traits_of(found: Sequence[Weighted]) -> Traits:
@@ -34,7 +37,14 @@ def traits_of(found: Sequence[Weighted]) -> Traits:
         emits=any(_given(leaf, "strength", "emission_strength") for leaf in used),
         mirrors=any(leaf.name not in _DIFFUSE for leaf in used),
         transmits=any(leaf.name in _GLASS or _given(leaf, "transmission") for leaf in used),
-        passes=any(leaf.name == "closure_transparent" or _less_than_one(leaf, "alpha") for leaf in used))
+        passes=any(leaf.name == "closure_transparent" or _less_than_one(leaf, "alpha") for leaf in used),
+        varies=any(_varies(expr) for w in found for expr in (w.weight, *w.leaf.arguments)))
+
+
+def _varies(root: Expr) -> bool:
+    """Whether it looks at the point where it is evaluated, other than for its normal."""
+    return any(isinstance(expr, Call) and expr.signature.takes_geo and expr.signature.name != "normal_of_point"
+               for expr in in_order([root]))
 
 
 def _given(leaf: Leaf, *names: str) -> bool:

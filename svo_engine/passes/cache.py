@@ -17,9 +17,9 @@ from .lights import Lights
 from .lights.glow import Glow
 from .octree import Octree
 from .tracer import Tracer
+from .upload.looks import Looks
 from .upload.placing import Placing
 from .upload.sky import Sky, world_uniforms
-from .upload.surfaces import Surfaces
 
 PARTS = 5  # vec4 a side, see bind/cache.glsl
 
@@ -69,10 +69,10 @@ class LightCache:
         return _n_done(self.changes, self.max_bounces)
 
 
-def link(device: Device, placing: Placing, surfaces: Surfaces, octree: Octree, tracer: Tracer, glow: Glow, sky: Sky,
+def link(device: Device, placing: Placing, looks: Looks, octree: Octree, tracer: Tracer, glow: Glow, sky: Sky,
          world: World, n_rays: int, n_points: int) -> Links:
     """Trace the rays of all sides."""
-    scope, n_sides, shines = device.scope(), 2 * octree.n_surfels, surfaces.emission_unit > 0
+    scope, n_sides, shines = device.scope(), 2 * octree.n_surfels, looks.emission_unit > 0
     links = scope.buffer("cache links", 4 * n_rays * n_sides)
     found = scope.buffer("found light", 16 * n_sides)
     draws = {"u_n_lamps": 0, "u_n_tree_draws": 0, **glow.draws()}
@@ -85,12 +85,12 @@ def link(device: Device, placing: Placing, surfaces: Surfaces, octree: Octree, t
                             Links=links, LinkHits=hits, u_first_ray=first, u_end_ray=min(first + ROUND, n_rays),
                             u_keeps_hits=shines)
         if shines:
-            device.dispatch(FOUND, n_sides, **placing.geometry, **surfaces.materials, **glow.emitters(), **common,
+            device.dispatch(FOUND, n_sides, **placing.geometry, **looks.materials, **glow.emitters(), **common,
                             LinkHits=hits)
     return Links(scope, octree, links, found, n_rays, n_points)
 
 
-def light_cache(device: Device, placing: Placing, surfaces: Surfaces, links: Links, tracer: Tracer, lights: Lights,
+def light_cache(device: Device, placing: Placing, looks: Looks, links: Links, tracer: Tracer, lights: Lights,
                 sky: Sky, world: World, max_bounces: int) -> LightCache:
     """Light the surfels: what is drawn, then bounces until the change is below TOLERANCE or `max_bounces` were done."""
     scope, octree, n_sides = device.scope(), links.octree, 2 * links.octree.n_surfels
@@ -105,7 +105,7 @@ def light_cache(device: Device, placing: Placing, surfaces: Surfaces, links: Lin
             common = {**_octree(octree), "Cache": entries, "Draws": draws, "u_start": start, "u_stride": n,
                       "u_n_points": links.n_points}
             if n_draws:
-                device.dispatch(DRAW, n, **placing.geometry, **surfaces.materials, **lights.emitters(), **common)
+                device.dispatch(DRAW, n, **placing.geometry, **looks.materials, **lights.emitters(), **common)
             device.dispatch(DIRECT, n, tracer.constants(), **tracer.resources(), **lights.resources(),
                             **world_uniforms(sky, world), **common, Found=links.found, u_n_rays=links.n_rays)
     for sweep in range(max_bounces):

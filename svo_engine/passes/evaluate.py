@@ -13,13 +13,12 @@ from ..scene.layouts import CONSTANTS
 from .parts import EYE, Part, Parts
 from .raster import Eye
 from .upload import GpuScene
+from .upload.trees import evaluate_trees
 
 MATTE = Pass("evaluate/matte.comp.glsl")
 PRINCIPLED = Pass("evaluate/principled.comp.glsl")
 
 ONCE = 0x7FFFFFFF  # an invocation for each slot, see bind/list.glsl
-BUSY = 1 << 17  # invocations that keep a graphics card busy
-SHARE = 16  # slots of an invocation that looks for those of one structure, where the processor renders
 
 
 def evaluate(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part) -> None:
@@ -30,7 +29,8 @@ def evaluate(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: 
     if gpu_scene.needs.principled:
         device.dispatch(PRINCIPLED, part.n, **gpu_scene.materials, **common, u_albedo=gpu_scene.table.table,
                         u_takes_all=False)
-    _evaluate_trees(device, gpu_scene, eye, parts.of(part, EYE), part.n, slots, CONSTANTS["RAY_CAMERA"], 0)
+    given = _of_trees(gpu_scene, eye, parts.of(part, EYE), slots, "RAY_CAMERA", 0)
+    evaluate_trees(device, gpu_scene.trees, part.n, given)
 
 
 def evaluate_met(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part, n: int,
@@ -41,23 +41,14 @@ def evaluate_met(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, pa
     """
     device.dispatch(PRINCIPLED, n, **gpu_scene.geometry, **gpu_scene.materials, **parts.of(part, parts.met), **slots,
                     u_albedo=gpu_scene.table.table, u_takes_all=True)
-    points = parts.of(part, parts.met)
-    _evaluate_trees(device, gpu_scene, eye, points, n, slots, CONSTANTS["RAY_GLOSSY"], 1)
+    given = _of_trees(gpu_scene, eye, parts.of(part, parts.met), slots, "RAY_GLOSSY", 1)
+    evaluate_trees(device, gpu_scene.trees, n, given)
 
 
-def _evaluate_trees(device: Device, gpu_scene: GpuScene, eye: Eye, points: Resources, n: int, slots: Resources,
-                    rays: int, depth: int) -> None:
-    """Fill in the points of each structure of node trees. Slots are looked through by fewer invocations than there are,
-    so that those that evaluate do it together.
-    """
-    if not gpu_scene.trees.passes:
-        return
-    n = -(-n // SHARE) if device.profiler.is_software else min(n, BUSY)
-    given = {**gpu_scene.of_trees, **points, **slots, "u_step": n, "u_footprint": eye.footprint, "u_rays": rays,
-             "u_depth": depth, "u_wants_mean": False}
-    for i, pass_ in enumerate(gpu_scene.trees.passes):
-        given["u_program"] = CONSTANTS["PROGRAM_TREE"] + i
-        device.dispatch(pass_, n, **{name: given[name] for name in pass_.wanted})
+def _of_trees(gpu_scene: GpuScene, eye: Eye, points: Resources, slots: Resources, rays: str, depth: int) -> Resources:
+    """What compiled trees are given."""
+    return {**gpu_scene.of_trees, **points, **slots, "u_footprint": eye.footprint, "u_rays": CONSTANTS[rays],
+            "u_depth": depth, "u_wants_mean": False}
 
 
 def all_slots(parts: Parts, part: Part) -> Resources:

@@ -16,8 +16,8 @@ from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
 from ..scene import layouts
 from .albedo import Albedo
+from .upload.looks import Looks
 from .upload.placing import Placing
-from .upload.surfaces import Surfaces
 from .voxelize import Grid, cut_strips, make_grid, number_bits
 
 MARK_NODES = Pass("octree/mark_nodes.comp.glsl")
@@ -61,7 +61,7 @@ def tree_sizes(n: int, n_nodes: int) -> Resources:
     return {"u_n_top_words": (n // NODE)**3 // 32, "u_n_node_words": NODE_WORDS * n_nodes}
 
 
-def build_octree(device: Device, placing: Placing, surfaces: Surfaces, table: Albedo, n: int) -> Octree:
+def build_octree(device: Device, placing: Placing, looks: Looks, table: Albedo, n: int) -> Octree:
     """The octree of n^3 voxels, n a multiple of 16. GpuError if it does not fit the device."""
     grid, scope = make_grid(placing.extent, n), device.scope()
     n_top = (n // NODE)**3 // 32
@@ -77,7 +77,7 @@ def build_octree(device: Device, placing: Placing, surfaces: Surfaces, table: Al
         masks.copy_from(words, 4 * n_node, read_offset=8 * n_top)
         first, n_surfels = number_bits(device, scratch, masks, n_node)
         words.copy_from(first, 4 * n_node, write_offset=8 * n_top + 4 * n_node)
-        surfels = _surfels(device, scope, scratch, surfaces, table, {**work, **tree}, n_strips, n_surfels, grid)
+        surfels = _surfels(device, scope, scratch, looks, table, {**work, **tree}, n_strips, n_surfels, grid)
     return Octree(scope, grid, words, surfels, n_nodes, n_surfels)
 
 
@@ -93,13 +93,13 @@ def _top(device: Device, scope: GpuScope, scratch: GpuScope, work: Resources, n_
     return words, n_nodes
 
 
-def _surfels(device: Device, scope: GpuScope, scratch: GpuScope, surfaces: Surfaces, table: Albedo,
+def _surfels(device: Device, scope: GpuScope, scratch: GpuScope, looks: Looks, table: Albedo,
              work: Resources, n_strips: int, n_surfels: int, grid: Grid) -> Buffer:
     """The buffer of surfels."""
-    n_sums = SUMS + 3 * (surfaces.emission_unit > 0)
+    n_sums = SUMS + 3 * (looks.emission_unit > 0)
     sums: Resources = {"Sums": scratch.buffer("surfel sums", 4 * n_sums * n_surfels, clear=True), "u_n_sums": n_sums,
-                       "u_emission_unit": surfaces.emission_unit}
-    device.dispatch(ACCUMULATE, n_strips, **work, **surfaces.materials, **sums, u_albedo=table.table)
+                       "u_emission_unit": looks.emission_unit}
+    device.dispatch(ACCUMULATE, n_strips, **work, **looks.materials, **sums, u_albedo=table.table)
     surfels = scope.buffer("surfels", layouts.dtype(layouts.SURFEL).itemsize * n_surfels)
     device.dispatch(AVERAGE, n_surfels, Surfels=surfels, **grid.uniforms(), **sums)
     return surfels

@@ -13,12 +13,13 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.program import Resources
 from .cache import LightCache
-from .evaluate import BUSY, ONCE, all_slots, evaluate_met
+from .evaluate import ONCE, all_slots, evaluate_met
 from .lights import Lights
 from .parts import EYE, LIST_HEAD, Part, Parts
 from .raster import Eye
 from .tracer import Tracer
 from .upload import GpuScene
+from .upload.trees import BUSY
 
 DRAW = Pass("lights/draw.comp.glsl")
 STEP = Pass("path/step.comp.glsl")
@@ -52,7 +53,7 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
             points = parts.met
             evaluate_met(device, gpu_scene, eye, parts, part, n, slots)
             if has_emitters and n_legs < most:
-                device.dispatch(DRAW, n, **gpu_scene.geometry, **gpu_scene.materials, **lights.emitters(),
+                device.dispatch(DRAW, n, **gpu_scene.geometry, **gpu_scene.looks.materials, **lights.emitters(),
                                 **parts.of(part, points), **slots, u_seed_offset=3)
             going = step(points, n, slots, n_legs)
             device.profiler.counts["path rounds"] += 1

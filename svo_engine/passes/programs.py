@@ -16,6 +16,7 @@ from ..settings import RenderSettings
 from . import (
     adaptive,
     albedo,
+    bake,
     bvh,
     cache,
     debug,
@@ -57,6 +58,7 @@ def all_programs(is_software: bool) -> tuple[Variant, ...]:
     """All that any frame could run, most needed first."""
     everything = [
         *_rays(True, True), *_picture(True, False, is_software), *_picture(True, True, is_software),
+        *bake.PASSES,
         denoise.COMPOSE, planes.MEAN, adaptive.MEASURE, adaptive.DECIDE, atrous.PREPARE, atrous.ATROUS, *_voxels(),
         light.INJECT, light.MIP, gather.CONES, debug.SURFELS, debug.VOXELS, debug.ATTRIBUTE]
     return _variants(list(dict.fromkeys(everything)), is_software)
@@ -68,6 +70,8 @@ def _variants(used: list[Pass], is_software: bool) -> tuple[Variant, ...]:
 
 def _of_view(needs: Needs, settings: RenderSettings, is_software: bool) -> Iterator[Pass]:
     is_drawn = is_software or needs.alpha
+    if needs.trees:
+        yield from bake.PASSES
     if settings.view.startswith("voxel"):
         yield from _voxels()
         yield from (debug.VOXELS, debug.ATTRIBUTE, light.INJECT, light.MIP, raster.VISIBILITY)

@@ -128,7 +128,7 @@ def can_trace(gpu_scene: GpuScene, tracer: Tracer) -> bool:
     A graphics card takes .3 ms to change between drawing and dispatches. Alpha is for the rasteriser, which spreads the
     samples that it lets through evenly.
     """
-    return not tracer.bvh.in_lockstep and not gpu_scene.surfaces.has_alpha.any()
+    return not tracer.bvh.in_lockstep and not gpu_scene.looks.has_alpha.any()
 
 
 def _clip_from_world(gpu_scene: GpuScene, view: View, settings: RenderSettings, sample: int) -> np.ndarray:

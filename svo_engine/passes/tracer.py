@@ -12,8 +12,8 @@ from ..gpu.scope import GpuScope
 from .bvh import Bvh
 from .upload import GpuScene
 from .upload.cutouts import Cutouts, opacity_of
+from .upload.looks import Looks
 from .upload.placing import Placing
-from .upload.surfaces import Surfaces
 
 QUICK = 24  # entries of a ray's stack that lie in shared memory, see bind/trace.glsl
 
@@ -23,14 +23,14 @@ class Tracer:
     """The trees of boxes, and all that rays know of materials. rest: room for what their stacks hold beyond QUICK."""
 
     placing: Placing
-    surfaces: Surfaces
+    looks: Looks
     cutouts: Cutouts
     bvh: Bvh
     rest: Rest
 
     def resources(self) -> Resources:
         """What bind/trace.glsl reads."""
-        return {**opacity_of(self.placing, self.surfaces, self.cutouts), **self.bvh.resources(),
+        return {**opacity_of(self.placing, self.looks, self.cutouts), **self.bvh.resources(),
                 "TraceRest": self.rest.words, "u_trace_stride": MOST_RAYS}
 
     def constants(self) -> dict[str, bool]:
@@ -55,4 +55,4 @@ def make_rest(device: Device, height: int) -> Rest:
 
 def tracer_of(gpu_scene: GpuScene, bvh: Bvh, rest: Rest) -> Tracer:
     """The rays of a scene."""
-    return Tracer(gpu_scene.placing, gpu_scene.surfaces, gpu_scene.cutouts, bvh, rest)
+    return Tracer(gpu_scene.placing, gpu_scene.looks, gpu_scene.cutouts, bvh, rest)

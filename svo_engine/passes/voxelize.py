@@ -18,8 +18,8 @@ from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
 from ..scene import layouts
 from .albedo import Albedo
+from .upload.looks import Looks
 from .upload.placing import Placing
-from .upload.surfaces import Surfaces
 
 COUNT = Pass("voxelize/count.comp.glsl")
 MARK = Pass("voxelize/mark.comp.glsl")
@@ -66,7 +66,7 @@ def make_grid(extent: float, n: int) -> Grid:
     return Grid(n, (low, low, low), voxel_size)
 
 
-def voxelize(device: Device, placing: Placing, surfaces: Surfaces, table: Albedo, n: int) -> Voxels:
+def voxelize(device: Device, placing: Placing, looks: Looks, table: Albedo, n: int) -> Voxels:
     """Voxelize at n voxels a side, n a multiple of 4. GpuError if the voxels do not fit the device."""
     grid, scope = make_grid(placing.extent, n), device.scope()
     if not placing.n_work:
@@ -76,10 +76,10 @@ def voxelize(device: Device, placing: Placing, surfaces: Surfaces, table: Albedo
         work, n_strips = cut_strips(device, scratch, placing, grid)
         occupancy = mark(device, scope, work, n_strips, grid)
         firsts, n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
-        n_sums = SUMS + 3 * (surfaces.emission_unit > 0)
+        n_sums = SUMS + 3 * (looks.emission_unit > 0)
         sums: Resources = {"Sums": scratch.buffer("voxel sums", 4 * n_sums * n_voxels, clear=True),
-                           "u_n_sums": n_sums, "u_emission_unit": surfaces.emission_unit}
-        device.dispatch(ACCUMULATE, n_strips, **work, **surfaces.materials, **sums, Occupancy=occupancy,
+                           "u_n_sums": n_sums, "u_emission_unit": looks.emission_unit}
+        device.dispatch(ACCUMULATE, n_strips, **work, **looks.materials, **sums, Occupancy=occupancy,
                         VoxelFirst=firsts, u_albedo=table.table)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
         device.dispatch(AVERAGE, n_voxels, Voxels=voxels, **sums)

@@ -24,13 +24,14 @@ INSTANCE: Fields = (("row_x", "vec4"), ("row_y", "vec4"), ("row_z", "vec4"), ("f
                     ("n_triangles", "uint"), ("first_work", "uint"), ("first_slot", "uint"))
 
 # `scene.types.Material`; textures are indices, -1 for none. program: which of shaders/evaluate turns it into a Point,
-# PROGRAM_*: from PROGRAM_TREE on a structure of node trees each, whose values begin at first_value
+# PROGRAM_*: from PROGRAM_TREE on a structure of node trees each, whose values begin at first_value, baked
+# with `detail` cells for each metre that others have one for, 0 for one cell a triangle
 MATERIAL: Fields = (("base_color", "vec3"), ("alpha", "float"), ("emission", "vec3"), ("roughness", "float"),
                     ("specular_tint", "vec3"), ("metallic", "float"), ("ior", "float"), ("specular_level", "float"),
                     ("transmission", "float"), ("normal_strength", "float"), ("base_color_texture", "int"),
                     ("roughness_texture", "int"), ("metallic_texture", "int"), ("emission_texture", "int"),
                     ("alpha_texture", "int"), ("normal_texture", "int"), ("program", "uint"),
-                    ("first_value", "uint"))
+                    ("first_value", "uint"), ("detail", "float"))
 
 # What a ray must know of a material: which share of all rays it stops, and the texture that multiplies that, or -1
 OPACITY: Fields = (("alpha", "float"), ("alpha_texture", "int"))

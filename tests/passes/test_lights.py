@@ -133,7 +133,7 @@ def bright_quad(name="Panel", radiance=5.0, place=None, n=1):
 def drawn_from(device, scene):
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        return emitters_of(gpu_scene.placing, gpu_scene.surfaces)
+        return emitters_of(gpu_scene.placing, gpu_scene.looks)
 
 
 def test_emitters_are_the_glowing_triangles_where_they_are_placed(device):
@@ -194,7 +194,7 @@ def table_of(scene):
 
 
 def glow_of(device, gpu_scene):
-    return make_glow(device, gpu_scene.placing, gpu_scene.surfaces, gpu_scene.sky, gpu_scene.scene.world)
+    return make_glow(device, gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world)
 
 
 def sunny(height=32, width=64):

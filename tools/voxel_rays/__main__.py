@@ -81,14 +81,14 @@ def measure(device: Device, scene: Scene, n: int, n_points: int) -> Iterator[tup
             return result
 
         gpu_scene: GpuScene = keep(upload(device, scene))
-        placing, surfaces, sky, world = gpu_scene.placing, gpu_scene.surfaces, gpu_scene.sky, gpu_scene.scene.world
+        placing, looks, sky, world = gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world
         bvh = keep(build_bvh(device, placing, keep(build_meshes(device, scene.meshes))))
         tracer = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
         octree = keep(build_octree(device, *gpu_scene.matter, n))
-        glow = keep(make_glow(device, placing, surfaces, sky, world))
+        glow = keep(make_glow(device, placing, looks, sky, world))
         lights = keep(make_lights(device, gpu_scene.lamps, glow))
-        links = keep(link(device, placing, surfaces, octree, tracer, glow, sky, world, 16, 4))
-        cache = keep(light_cache(device, placing, surfaces, links, tracer, lights, sky, world, 12))
+        links = keep(link(device, placing, looks, octree, tracer, glow, sky, world, 16, 4))
+        cache = keep(light_cache(device, placing, looks, links, tracer, lights, sky, world, 12))
         scope = made.enter_context(device.scope())
         starts = scope.buffer("starts", seen_points(Traced(device, gpu_scene, tracer), n_points))
         found = scope.buffer("found", 16 * n_points)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...scene.types import Instances, Material, Mesh
+from ..upload.looks import Looks
 from ..upload.placing import Placing
 from ..upload.sky import linear_pixels
 from ..upload.surfaces import Surfaces
@@ -33,18 +34,25 @@ class Emitters:
     intensity: np.ndarray
 
 
-def emitters_of(placing: Placing, surfaces: Surfaces) -> Emitters:
+def emitters_of(placing: Placing, looks: Looks) -> Emitters:
     """The emissive triangles that rays would not find: of materials that are not EASY, and of as many instances as MOST
     allows, those with the fewest triangles first.
     """
     inst, meshes = placing.placed, placing.shapes.meshes
+    surfaces = looks.surfaces
     radiance = np.array([_mean_radiance(surfaces, material) for material in surfaces.rows] or [0.0])
+    is_baked = looks.emits if looks.means is not None else np.zeros(len(radiance), bool)
+    radiance[:len(is_baked)][is_baked] = 1.0  # of each triangle its own
     if radiance.any():
         radiance[_area_shares(inst, meshes, len(radiance)) > EASY] = 0.0
     order, first_triangle = placing.order, placing.shapes.first_triangle
     first_work = np.cumsum([0, *np.diff(first_triangle)[inst.mesh[order]]])
     glowing = [(number, i) for number, i in enumerate(order) if radiance[_slots(inst, i)].any()]
     found = {number: _radiances(inst, meshes, i, radiance) for number, i in _smallest(inst, meshes, glowing)}
+    if looks.means is not None:
+        for number, sent in found.items():
+            own = _radiances(inst, meshes, order[number], is_baked)
+            found[number] = np.where(own, looks.means[first_work[number]:first_work[number] + len(sent)], sent)
     parts = []
     for number, sent in sorted(found.items()):
         i = order[number]

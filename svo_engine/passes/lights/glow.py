@@ -13,9 +13,9 @@ from ...gpu.scope import GpuScope
 from ...gpu.texels import Texels
 from ...scene import layouts
 from ...scene.types import World
+from ..upload.looks import Looks
 from ..upload.placing import Placing
 from ..upload.sky import Sky
-from ..upload.surfaces import Surfaces
 from .emitters import emitters_of
 from .sky import sky_table
 from .tree import leaf_of_light, light_tree
@@ -55,9 +55,9 @@ class Glow:
         return {"u_sky": self.table, "u_sky_size": self.sky_size, "u_world_from_env": self.world_from_env}
 
 
-def make_glow(device: Device, placing: Placing, surfaces: Surfaces, sky: Sky, world: World) -> Glow:
+def make_glow(device: Device, placing: Placing, looks: Looks, sky: Sky, world: World) -> Glow:
     """What glows, on the device. GpuError names the buffer that does not fit."""
-    scope, emitters, table = device.scope(), emitters_of(placing, surfaces), sky_table(sky.image, world)
+    scope, emitters, table = device.scope(), emitters_of(placing, looks), sky_table(sky.image, world)
     tree = light_tree(emitters.low, emitters.high, emitters.intensity)
     rows = np.zeros(len(emitters.work), layouts.dtype(layouts.EMITTER))
     rows["work"], rows["instance"], rows["triangle"] = emitters.work, emitters.instance, emitters.triangle

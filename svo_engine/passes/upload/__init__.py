@@ -21,6 +21,7 @@ from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
 from .cutouts import Cutouts, mark_cutouts, opacity_of
 from .lamps import Lamps, light_rows, upload_lamps
+from .looks import Looks
 from .placing import Draw, Placing, place
 from .shapes import pack_units, upload_shapes
 from .sky import Sky, linear_pixels, upload_sky, world_uniforms
@@ -42,20 +43,21 @@ class GpuScene:
     placing: Placing
     trees: Trees
     surfaces: Surfaces
+    looks: Looks
     cutouts: Cutouts
     lamps: Lamps
     sky: Sky
     table: Albedo
 
     @property
-    def matter(self) -> tuple[Placing, Surfaces, Albedo]:
+    def matter(self) -> tuple[Placing, Looks, Albedo]:
         """All that a voxel can hold: where surfaces are and what they look like."""
-        return self.placing, self.surfaces, self.table
+        return self.placing, self.looks, self.table
 
     @property
     def opacity(self) -> Resources:
         """What bind/opacity.glsl reads: all that rays know of materials."""
-        return opacity_of(self.placing, self.surfaces, self.cutouts)
+        return opacity_of(self.placing, self.looks, self.cutouts)
 
     @property
     def geometry(self) -> Resources:
@@ -103,12 +105,17 @@ def trees_of(scene: Scene, make: Make) -> Trees:
 
 def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Make) -> GpuScene:
     """The scene from parts: `make(name, function, *inputs, n_kept)` gives function(device, *inputs), or a kept one."""
+    from ..bake import bake  # which needs this package
+
     scene = scene.plain
     shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
     placing = make("placing", place, shapes, scene.instances)
     surfaces = make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images, trees)
+    table = make("albedo", albedo, needs.principled, n_kept=2)
+    looks = make("looks", bake, placing, surfaces, trees, table)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     return GpuScene(
-        scope, scene, needs, placing, trees, surfaces, make("cutouts", mark_cutouts, placing, surfaces, needs.skips),
+        scope, scene, needs, placing, trees, surfaces, looks,
+        make("cutouts", mark_cutouts, placing, looks, needs.skips),
         make("lamps", upload_lamps, scene.lights, placing.centre_ws), make("sky", upload_sky, world),
-        make("albedo", albedo, needs.principled, n_kept=2))
+        table)

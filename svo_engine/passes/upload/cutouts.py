@@ -11,8 +11,8 @@ from ...gpu.buffer import Buffer
 from ...gpu.device import Device
 from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
+from .looks import Looks
 from .placing import Placing
-from .surfaces import Surfaces
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,16 +23,16 @@ class Cutouts:
     flags: Buffer
 
 
-def opacity_of(placing: Placing, surfaces: Surfaces, cutouts: Cutouts) -> Resources:
+def opacity_of(placing: Placing, looks: Looks, cutouts: Cutouts) -> Resources:
     """What bind/opacity.glsl reads: all that rays know of materials."""
-    return {**placing.instances, **surfaces.images, "Opacities": surfaces.opacities, "Cutouts": cutouts.flags}
+    return {**placing.instances, **looks.opacity, "Cutouts": cutouts.flags}
 
 
-def mark_cutouts(device: Device, placing: Placing, surfaces: Surfaces, skips: bool) -> Cutouts:
+def mark_cutouts(device: Device, placing: Placing, looks: Looks, skips: bool) -> Cutouts:
     """Look at the materials of every instance. Without `skips` all count as cut out, which must change nothing."""
     scope = device.scope()
     inst = placing.placed
-    of_slots = surfaces.has_alpha[inst.slot_materials]
+    of_slots = looks.has_alpha[inst.slot_materials]
     found = np.logical_or.reduceat(of_slots, inst.first_slot[:-1]) if len(inst) else np.zeros(0, bool)
     flags = (found | (not skips))[placing.order].astype("u4")
     device.profiler.counts["cutouts"] = int(flags.sum())

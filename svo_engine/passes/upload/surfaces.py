@@ -12,6 +12,7 @@ from ...gpu.device import Device
 from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...needs import has_alpha, is_matte
+from ...nodes.traits import Traits
 from ...scene import layouts
 from ...scene.types import Image, Material, Texture
 from .pictures import upload_pictures
@@ -68,7 +69,7 @@ def _emission_bound(material: Material, textures: tuple[Texture, ...], images: t
 
 def _materials(materials: tuple[Material, ...], trees: Trees | None = None) -> np.ndarray:
     rows = np.zeros(len(materials), layouts.dtype(layouts.MATERIAL))
-    names = [name for name in rows.dtype.names or () if name not in ("program", "first_value")]
+    names = [name for name in rows.dtype.names or () if name not in ("program", "first_value", "detail")]
     for row, material in zip(rows, materials, strict=True):
         for name in names:
             row[name] = getattr(material, name)
@@ -77,7 +78,13 @@ def _materials(materials: tuple[Material, ...], trees: Trees | None = None) -> n
         structure = trees.compiled.structure_of
         rows["program"] = np.where(structure < 0, rows["program"], layouts.CONSTANTS["PROGRAM_TREE"] + structure)
         rows["first_value"] = trees.compiled.first_value
+        rows["detail"] = [_detail(t) for t in trees.compiled.traits]
     return rows
+
+
+def _detail(traits: Traits | None) -> float:
+    """How finely a tree is baked; finer where shadows show its outlines."""
+    return 0.0 if traits is None or not traits.varies else 4.0 if traits.passes else 1.0
 
 
 def _opacities(materials: tuple[Material, ...]) -> np.ndarray:

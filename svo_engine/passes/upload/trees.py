@@ -11,11 +11,15 @@ from typing import Any
 from ...gpu.buffer import Buffer
 from ...gpu.device import Device
 from ...gpu.passes import Pass
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...nodes.compile import Compiled, compile_materials
+from ...scene.layouts import CONSTANTS
 from ...scene.types import Image, Material
 
 TEMPLATE = "evaluate/tree.comp.glsl"
+BUSY = 1 << 17  # invocations that keep a graphics card busy
+SHARE = 16  # slots of an invocation, where the processor renders
 PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text stands for
 
 
@@ -44,6 +48,18 @@ def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[
 
     compiled = compile_materials(materials, find_image)
     return Trees(scope, compiled, tuple(map(tree_pass, compiled.structures)), scope.buffer("values", compiled.values))
+
+
+def evaluate_trees(device: Device, trees: Trees, n: int, given: Resources) -> None:
+    """Fill in the points of each structure, of n slots. These are looked through by fewer invocations than there are,
+    so that those that evaluate do it together.
+
+    given  all that functions of shaders/nodes and the template can ask for, but u_step and u_program
+    """
+    n = -(-n // SHARE) if device.profiler.is_software else min(n, BUSY)
+    for i, pass_ in enumerate(trees.passes):
+        whole = {**given, "u_step": n, "u_program": CONSTANTS["PROGRAM_TREE"] + i}
+        device.dispatch(pass_, n, **{name: whole[name] for name in pass_.wanted})
 
 
 @lru_cache(1024)

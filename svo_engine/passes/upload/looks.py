@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What surfaces look like to all programs that do not evaluate trees of nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...gpu.program import Resources
+from ...gpu.scope import GpuScope
+from .surfaces import Surfaces
+
+
+@dataclass(frozen=True, eq=False)
+class Looks:
+    """Materials, and what was baked of those that are trees.
+
+    materials      what bind/looks.glsl reads
+    surfaces       what all that evaluates itself reads
+    opacity        what bind/opacity.glsl reads of materials
+    has_alpha      (n_materials,) bool: whether a ray may pass through it
+    emission_unit  the highest radiance that any material sends out
+    means          (n_work,) f4, radiance of triangles whose material is a tree, if any of them shines; n_work counts
+                   triangles with instances
+    emits          (n_materials,) bool: materials whose triangles stand in `means`
+    """
+
+    scope: GpuScope
+    surfaces: Surfaces
+    materials: Resources
+    opacity: Resources
+    has_alpha: np.ndarray
+    emission_unit: float
+    means: np.ndarray | None
+    emits: np.ndarray
