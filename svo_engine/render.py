@@ -36,6 +36,7 @@ from .passes.raster import Eye, Targets, look, make_targets, raster
 from .passes.resolve import GpuFilm, make_film, resolve
 from .passes.tracer import Tracer, make_rest, tracer_of
 from .passes.upload import GpuScene, assemble, trees_of
+from .passes.upload.trees import with_stand_ins
 from .passes.voxelize import Voxels, voxelize
 from .scene.types import Scene, View
 from .settings import RenderSettings
@@ -85,7 +86,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
                          not needs.alpha, n_kept=SIZES)
         film = make_film(scope, view, planes_for(needs, settings, denoiser.name), gpu_scene.centre_ws,
                          is_black=settings.view != "combined")
-        frame = Frame(needs, film, denoiser, [*gpu_scene.surfaces.limits, *denoiser.limits],
+        frame = Frame(needs, film, denoiser, [*trees.told(), *gpu_scene.surfaces.limits, *denoiser.limits],
                       make_progress(scope, film, settings))
         targets = stage("targets", make_targets, view.size, n_kept=SIZES)
         tracer, show = _method(stage, device, gpu_scene, targets, view, settings, frame)
@@ -299,17 +300,20 @@ class Client:
         self._kept: tuple[_Opened, Kept] | None = None
 
     def films(self, scene: Scene, view: View, settings: RenderSettings,
-              should_stop: Callable[[], bool] = lambda: False, interval: float = 0.0) -> Iterator[Film]:
+              should_stop: Callable[[], bool] = lambda: False, interval: float = 0.0,
+              is_draft: bool = False) -> Iterator[Film]:
         """Yield a better Film after each sample, or at most every `interval` seconds; math.inf: the last one alone.
 
         should_stop is asked on the calling thread while the GPU works; when it says True, Cancelled is raised.
+        A draft does not wait for node trees to be compiled: plain values stand in for those that are not.
         Raises SceneError, ShaderError or GpuError with a sentence for the user.
         """
         opened = self._session.opened()
 
         def read_films(device: Device) -> Iterator[Film]:
             due = 0.0 if math.isfinite(interval) else math.inf
-            for frame in render(scene, view, settings, device, self._kept_on(opened)):
+            shown = with_stand_ins(device, scene) if is_draft else scene
+            for frame in render(shown, view, settings, device, self._kept_on(opened)):
                 if frame.is_last or time.monotonic() >= due:
                     yield _read(frame, device, scene, settings)
                     due = time.monotonic() + interval

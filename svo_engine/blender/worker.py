@@ -13,7 +13,7 @@ from ..scene.types import Scene, View
 from ..settings import RenderSettings
 from .viewport_view import Rect
 
-FilmSource = Callable[[Scene, View, RenderSettings, Callable[[], bool]], Iterator[Film]]
+FilmSource = Callable[..., Iterator[Film]]  # as Client.films
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +125,6 @@ class Worker:
         """Publish the draft's film and then the job's."""
         for part, should_stop in ((job.draft(), lambda: self._is_closed),
                                   (job, lambda: self._is_closed or self._job is not job)):
-            for film in self._films(part.scene, part.view, part.settings, should_stop):
+            for film in self._films(part.scene, part.view, part.settings, should_stop, is_draft=part is not job):
                 self.shown, self.failure = (job, film), ""
                 self._news.set()

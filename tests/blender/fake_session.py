@@ -34,7 +34,7 @@ class FakeSession:
         self.n_before_error = 0
         self.is_closed = False
 
-    def films(self, scene, view, settings, should_stop=lambda: False, interval=0.0):
+    def films(self, scene, view, settings, should_stop=lambda: False, interval=0.0, is_draft=False):  # noqa: ARG002
         self.calls.append((scene, view, settings))
         alpha = 0.5 if scene.film_transparent else 1.0
         for n in range(1, settings.samples + 1):

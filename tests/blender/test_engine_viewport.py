@@ -43,7 +43,7 @@ class Gated:
         self.calls, self.gate, self.called = [], threading.Semaphore(0), threading.Semaphore(0)
         self.error = None
 
-    def films(self, scene, view, settings, should_stop):
+    def films(self, scene, view, settings, should_stop, is_draft):  # noqa: ARG002
         self.calls.append((scene, view, settings))
         self.called.release()
         for n in range(1, settings.samples + 1):

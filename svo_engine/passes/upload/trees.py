@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -15,7 +15,7 @@ from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...nodes.compile import Compiled, compile_materials
 from ...scene.layouts import CONSTANTS
-from ...scene.types import Image, Material
+from ...scene.types import Image, Material, Scene
 
 TEMPLATE = "evaluate/tree.comp.glsl"
 BUSY = 1 << 17  # invocations that keep a graphics card busy
@@ -37,6 +37,10 @@ class Trees:
         """What a frame must have compiled."""
         return tuple((pass_, {}) for pass_ in self.passes)
 
+    def told(self) -> list[str]:
+        """A sentence for each thing in a tree that is not as in Blender."""
+        return [f"Material '{name}': {note}" for name, note in self.compiled.notes]
+
 
 def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[Image, ...]) -> Trees:
     """Compile the trees of those materials that have one of their own, and copy their values."""
@@ -48,6 +52,21 @@ def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[
 
     compiled = compile_materials(materials, find_image)
     return Trees(scope, compiled, tuple(map(tree_pass, compiled.structures)), scope.buffer("values", compiled.values))
+
+
+def with_stand_ins(device: Device, scene: Scene) -> Scene:
+    """The same, but that plain values stand in where a tree's program is not compiled yet. Has the driver begin with
+    those, if it has threads for that.
+    """
+    materials = scene.plain.materials
+    compiled = compile_materials(materials, lambda _: 0)
+    passes = [tree_pass(text) for text in compiled.structures]
+    device.programs.begin((pass_, {}) for pass_ in passes)
+    is_ready = [device.programs.find(pass_, {}) is not None for pass_ in passes]
+    if all(is_ready):
+        return scene
+    return replace(scene, materials=tuple(m if structure < 0 or is_ready[structure] else replace(m, is_exact=True)
+                                          for m, structure in zip(materials, compiled.structure_of, strict=True)))
 
 
 def evaluate_trees(device: Device, trees: Trees, n: int, given: Resources) -> None:

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compiled node trees in a frame: what stands in for them, what edits compile, what lights others."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from svo_engine.scene.graph import Graph, Link, Node
+from svo_engine.scene.types import Camera, Material, Scene
+from tests import scenes
+from tests.on_gpu import film_of, picture_of
+from tests.rays import RAYS
+
+CAMERA = Camera("Camera", scenes.look((0, -4, 2)), (16, 12))
+OPEN = {**RAYS, "samples": 1, "bounces": 0}
+
+
+def emission(color: tuple[float, ...], strength: float = 1.0, more: tuple[Node, ...] = ()) -> Graph:
+    """An Emission node that nothing feeds; `more` are nodes that are of no use."""
+    node = Node("ShaderNodeEmission", inputs={"Color": (*color, 1.0), "Strength": strength})
+    return Graph((node, *more), Link(0, "Emission"))
+
+
+def glowing(graph: Graph) -> Scene:
+    """A floor of that tree, black where plain values stand in."""
+    tree = Material("Tree", (0, 0, 0), specular_level=0, graph=graph, is_exact=False)
+    return scenes.scene(scenes.Thing(scenes.floor(), tree), camera=CAMERA)
+
+
+def test_a_tree_is_what_is_seen(session):
+    picture = picture_of(session, glowing(emission((0.2, 0.4, 0.8), 3.0)), **OPEN)
+    assert np.allclose(picture[6, 8, :3], [0.6, 1.2, 2.4], rtol=1e-6)
+    assert picture[0, 0, :3].max() == 0
+
+
+def test_an_edit_of_a_value_compiles_nothing(session):
+    film_of(session, glowing(emission((0.2, 0.4, 0.8))), **OPEN)
+    film = film_of(session, glowing(emission((0.9, 0.1, 0.3), 7.0)), **OPEN)
+    assert film.stats["counts"]["programs compiled"] == 0
+
+
+def test_a_draft_shows_plain_values_until_the_tree_is_compiled(session):
+    """A structure that no other test has: three emissions added."""
+    nodes = [*(emission((1, 1, 1)).nodes[0] for _ in range(3)),
+             Node("ShaderNodeAddShader", inputs={"Shader": Link(0, "Emission"), "Shader_001": Link(1, "Emission")}),
+             Node("ShaderNodeAddShader", inputs={"Shader": Link(3, "Shader"), "Shader_001": Link(2, "Emission")})]
+    both = Graph(tuple(nodes), Link(4, "Shader"))
+    scene = glowing(both)
+    view, settings = scenes.view(scene), replace(scenes.SMALL, **OPEN)
+    draft = list(session.client().films(scene, view, settings, is_draft=True))[-1].planes["Combined"]
+    assert draft[..., 3].max() == 1
+    assert draft[..., :3].max() == 0
+    assert picture_of(session, scene, **OPEN)[..., :3].max() == 3
+    again = list(session.client().films(scene, view, settings, is_draft=True))[-1].planes["Combined"]
+    assert again[..., :3].max() == 3
+
+
+def test_emitting_trees_light_others(session):
+    """A panel over a floor, once as a tree and once in the table of materials: cells hold radiance to 2^-16."""
+    panel = scenes.quad("Panel", (-0.5, -0.5, 1), (1, 0, 0), (0, 1, 0))
+    plain = Material("Lamp", (0, 0, 0), specular_level=0, emission=(5, 3, 1))
+    tree = Material("Tree", (0, 0, 0), specular_level=0, graph=emission((5, 3, 1)), is_exact=False)
+    pictures = [picture_of(session, scenes.scene(scenes.Thing(scenes.floor()), scenes.Thing(panel, m), camera=CAMERA),
+                           **{**RAYS, "samples": 4}) for m in (plain, tree)]
+    assert pictures[0][..., :3].max() > 0.01
+    assert np.abs(pictures[0] - pictures[1]).max() < 1e-3
+
+
+def test_what_a_tree_cannot_say_is_told_by_material_and_node(session):
+    graph = Graph((Node("ShaderNodeOfNobody", name="Strange"),), Link(0, "BSDF"))
+    (told,) = [s for s in film_of(session, glowing(graph), **OPEN).stats["limits"] if "Strange" in s]
+    assert told.startswith("Material 'Tree': node 'Strange'")
