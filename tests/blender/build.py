@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 import numpy as np
 
@@ -74,14 +76,14 @@ def tree_of(owner):
 class Nodes:
     """The nodes of a new material, world or lamp, at first nothing but its output."""
 
-    def __init__(self, owner):
+    def __init__(self, owner: Any) -> None:
         self.owner = owner
         self.tree = tree_of(owner)
         kind = {"Material": "Material", "World": "World"}.get(type(owner).__name__, "Light")
         self.tree.nodes.clear()
         self.output = self.tree.nodes.new(f"ShaderNodeOutput{kind}")
 
-    def new(self, kind, **inputs):
+    def new(self, kind: str, **inputs: Any) -> Any:
         """A node; an input takes a constant, or what another node gives: the node itself (first output) or a socket."""
         node = self.tree.nodes.new(f"ShaderNode{kind}")
         for name, value in inputs.items():
@@ -97,18 +99,18 @@ class Nodes:
         else:
             socket.default_value = value
 
-    def show(self, node, output="Surface"):
+    def show(self, node: Any, output: str = "Surface") -> Any:
         """Make `node` what the output shows."""
         self.set(self.output, output, node)
         return self.owner
 
 
-def material(name="Material"):
+def material(name: str = "Material") -> Nodes:
     """The Nodes of a new material."""
     return Nodes(bpy.data.materials.new(name))
 
 
-def world(name="World"):
+def world(name: str = "World") -> Nodes:
     """The Nodes of a new world, which becomes the scene's."""
     bpy.context.scene.world = bpy.data.worlds.new(name)
     return Nodes(bpy.context.scene.world)

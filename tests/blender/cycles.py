@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import OpenEXR
@@ -14,7 +16,8 @@ SETTINGS = {
     "sample_clamp_direct": 0.0, "sample_clamp_indirect": 0.0}
 
 
-def render(folder, *, size=(4, 4), samples=64, filter_width=1.0):
+def render(folder: Path, *, size: tuple[int, int] = (4, 4), samples: int = 64,
+           filter_width: float = 1.0) -> np.ndarray:
     """The open scene through its camera in scene-linear RGBA (height, width, 4) f4, row 0 at the bottom.
 
     No light bounces. Samples lie within `filter_width` pixels around the pixel's centre.

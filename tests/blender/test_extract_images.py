@@ -9,6 +9,7 @@ import pytest
 
 from tests.blender import cycles
 from tests.blender.build import extracted, image, material, one_color, plane
+from tests.blender.following import Followed
 from tests.blender.sampling import closest
 
 SIZE = 12  # pixels across the plane
@@ -301,35 +302,32 @@ def test_images_of_nodes_that_a_plain_material_does_not_read(empty):
     assert [image.name for image in extracted().images] == [shared.name_full]
 
 
-@pytest.mark.parametrize(("setting", "value", "warning"), [
-    ("projection", "BOX", "box projection is not supported; flat is used"),
-    ("interpolation", "Cubic", "Cubic interpolation is not supported; Linear is used")])
-def test_what_is_not_supported_is_told(empty, setting, value, warning):
+@pytest.mark.parametrize(("setting", "value"), [("projection", "BOX"), ("interpolation", "Cubic")])
+def test_how_the_values_cannot_read_an_image(empty, setting, value):
     nodes = material()
     texture = texture_node(nodes, one_color(1, 0, 0, 1))
     setattr(texture, setting, value)
     glowing(nodes, texture)
-    assert extracted().warnings == (f"Material 'Material': node 'Image Texture': {warning}",)
+    scene = extracted()
+    assert not scene.materials[0].is_exact
+    assert scene.warnings == ()
 
 
-def test_coordinates_that_are_not_supported_are_told(empty):
+def test_other_coordinates_than_uvs_are_not_exact(empty):
     nodes = material()
     texture = texture_node(nodes, one_color(1, 0, 0, 1))
     nodes.set(texture, "Vector", nodes.new("TexCoord").outputs["Generated"])
     glowing(nodes, texture)
-    warning, = extracted().warnings
-    assert warning == ("Material 'Material': coordinates from output 'Generated' of node 'Texture Coordinate' "
-                       "are not supported; UV is used")
+    assert not extracted().materials[0].is_exact
 
 
-def test_uv_map_other_than_the_active_one_is_told(empty):
+def test_uv_map_other_than_the_active_one_is_not_exact(empty):
     nodes = material()
     texture, uv_map = texture_node(nodes, one_color(1, 0, 0, 1)), nodes.new("UVMap")
     nodes.set(texture, "Vector", uv_map)
     glowing(nodes, texture)
-    assert extracted().warnings == ()
-    uv_map.uv_map = "UVMap"
-    assert extracted().warnings == ()
-    uv_map.uv_map = "Second"
-    assert extracted().warnings == (
-        "Material 'Material' asks for the UV map 'Second'; 'Plane' is drawn with its active one",)
+    followed = Followed()
+    for name in ("", "UVMap", "Second"):
+        scene = followed.after(lambda name=name: setattr(uv_map, "uv_map", name))
+        assert scene.materials[0].is_exact == extracted().materials[0].is_exact == (name != "Second")
+        assert scene.warnings == ()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nodes as pictures: what a node gives, sent out as light by a flat card, by this engine and by Cycles.
+"""Nodes as pictures: what a node gives, sent out as light by a flat card, by this engine and by Cycles. If that is a
+shader, it is the card's surface.
 
 Cards are planes of 2 by 2 metres, seen from above, each with a material of its own and UVs from 0 to 1; nothing else
 shines. All cards are in one picture, so that many modes cost one render each.
@@ -38,7 +39,8 @@ def make_cards(makers: Sequence[Maker]) -> None:
     for i, maker in enumerate(makers):
         nodes = build.material(f"Card {i}")
         shown = maker(nodes)
-        nodes.show(nodes.new("Emission", Color=shown))
+        is_shader = getattr(shown, "type", "") == "SHADER" and hasattr(shown, "is_output")
+        nodes.show(shown if is_shader else nodes.new("Emission", Color=shown))
         build.plane(nodes.owner, name=f"Card {i}", at=(2 * (i % side), 2 * (i // side), 0))
     camera = cycles.look_down(2 * side, 4)
     camera.location.x = camera.location.y = side - 1

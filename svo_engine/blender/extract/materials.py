@@ -49,7 +49,8 @@ class Materials:
         pointer = material.as_pointer() if material else 0
         if pointer not in self._index:
             self._index[pointer] = len(self.found)
-            reader = Reader(f"Material '{material.name}'" if material else "", self._textures, self._warn)
+            owner = f"Material '{material.name}'" if material else ""
+            reader = Reader(owner, self._textures, self._warn, tells_guesses=False)
             self.found.append(_read(material, reader) if material else default_material())
             self._images.add_named(self.found[-1].graph)
             self.uv_maps.append(reader.uv_maps)

@@ -147,5 +147,3 @@ class Placing:
         others = self._materials.uv_maps[material] - {self._uv_maps[mesh], ""}
         if others:
             self._materials.differ(material)
-            self._warn(f"Material '{self._materials.found[material].name}' asks for the UV map '{min(others)}'; "
-                       f"'{self.meshes[mesh].name}' is drawn with its active one")

@@ -58,12 +58,14 @@ class Reader:
     surfaces  by socket and groups: shaders that have been read, for many may show one
     """
 
-    def __init__(self, owner: str, sampler: Sampler | None, warn: Callable[[str], object]) -> None:
+    def __init__(self, owner: str, sampler: Sampler | None, warn: Callable[[str], object], *,
+                 tells_guesses: bool = True) -> None:
         self.uv_maps: set[str] = set()
         self.is_exact = True
         self.depth = 0
         self.surfaces: dict[tuple[int, ...], Any] = {}
         self._owner = owner
+        self._tells_guesses = tells_guesses
         self._sampler = sampler
         self._warn = warn
 
@@ -72,9 +74,10 @@ class Reader:
         self._warn(f"{self._owner}: {sentence}")
 
     def guess(self, sentence: str) -> None:
-        """Tell that a value only stands in for what the nodes say."""
+        """Note that a value only stands in for what the nodes say; of a material its compiled tree tells the rest."""
         self.is_exact = False
-        self.warn(sentence)
+        if self._tells_guesses:
+            self.warn(sentence)
 
     def value(self, port: Port, identifier: str, default: float = 0.0) -> Value:
         """The input `identifier` of the node of `port`; `default` if this version's node has none."""
