@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: what links between sockets of different types do, and weights of mixtures.
 
+#include "nodes/bounded.glsl"
+
 // Rec. 709 luminance.
 float number_of_color(vec3 c)
 {
@@ -9,7 +11,7 @@ float number_of_color(vec3 c)
 
 float number_of_vector(vec3 v)
 {
-    return (v.x + v.y + v.z) / 3.0;
+    return bounded((v.x + v.y + v.z) / 3.0);
 }
 
 vec3 splat(float x)

@@ -101,3 +101,9 @@ float math_hyperbolic_tangent(float a)
     float t = exp(-2.0 * min(abs(a), 20.0));
     return sign(a) * (1.0 - t) / (1.0 + t);
 }
+
+// A sigmoid around `center`.
+float squeezed(float a, float width, float center)
+{
+    return divided(1.0, 1.0 + math_exponent(bounded((center - a) * width)));
+}

@@ -4,7 +4,7 @@
 #include "bind/geo.glsl"
 #include "nodes/bounded.glsl"
 
-const uint RAMP_SIZE = 256u;  // entries, as in Cycles
+const uint RAMP_SIZE = 257u;  // entries, as in Cycles
 
 // Where x in [0, 1] lies in a table, from below.
 uint ramp_entry(float x)

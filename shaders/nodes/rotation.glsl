@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose: the Mapping and the Vector Rotate node. Rotations are three columns, which the host computes if it can.
+// Purpose: the Mapping and the Vector Rotate node. Euler's rotations are three columns, which the host computes if it can.
 
 #include "nodes/math_functions.glsl"
 
@@ -21,27 +21,13 @@ vec3 euler_z(vec3 r)
     return vec3(cx * sy * cz + sx * sz, cx * sy * sz - sx * cz, cx * math_cosine(r.y));
 }
 
-// v rotated about the unit vector `about` by an angle [rad]; as it is about 0.
-vec3 rotated_about(vec3 v, vec3 about, float angle)
+// By an angle [rad] about an axis of any length; as it is about none.
+vec3 rotated_by_angle(vec3 v, vec3 center, vec3 axis, float angle)
 {
+    vec3 about = unit_of(axis), from = v - center;
     float s = math_sine(angle), c = math_cosine(angle);
-    return about == vec3(0.0) ? v : c * v + s * cross(about, v) + (1.0 - c) * dot(about, v) * about;
-}
-
-// Columns of the rotation about an axis of any length.
-vec3 axis_angle_x(vec3 axis, float angle)
-{
-    return rotated_about(vec3(1.0, 0.0, 0.0), unit_of(axis), angle);
-}
-
-vec3 axis_angle_y(vec3 axis, float angle)
-{
-    return rotated_about(vec3(0.0, 1.0, 0.0), unit_of(axis), angle);
-}
-
-vec3 axis_angle_z(vec3 axis, float angle)
-{
-    return rotated_about(vec3(0.0, 0.0, 1.0), unit_of(axis), angle);
+    vec3 turned = c * from + s * cross(about, from) + (1.0 - c) * dot(about, from) * about;
+    return about == vec3(0.0) ? v : bounded3(turned + center);
 }
 
 vec3 rotated(vec3 v, vec3 center, vec3 x, vec3 y, vec3 z)

@@ -36,9 +36,10 @@ class Node:
               object, with its matrix (16 numbers, by rows) as "object.matrix_world". Of a record it is
               "record.property". "color_ramp" is (color_mode, interpolation, hue_interpolation, ((position, r, g, b, a),
               ...)). "mapping" (curves) is (extend, (min_x, min_y, max_x, max_y) or None without clipping, (black),
-              (white), for each curve its points ((x, y, handle), ...)); "mapping.samples" has for each curve, from its
-              first to its last x, the values that Blender gives at even steps, none if the curve changes nothing.
-              "ies.text" and "script.text" are what the file or the text block holds, None if that cannot be read
+              (white), for each curve its points ((x, y, handle), ...)); "mapping.samples" has for each curve the values
+              that Blender gives at even steps from the first to the last x of all curves; a fourth curve, if there is
+              one, comes before each of the others and is not listed. None if no curve changes anything. "ies.text" and
+              "script.text" are what the file or the text block holds, None if that cannot be read
     inputs    by identifier, those that the node's settings leave in use: a Link, or the constant; None for a shader
               and for what has no constant in the editor, such as normals and texture coordinates
     name      for messages

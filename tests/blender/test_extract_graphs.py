@@ -229,10 +229,16 @@ def test_ramp_and_curves(empty):
     extend, clip, _, _, points = settings["mapping"]
     assert (extend, clip) == ("EXTRAPOLATED", (0, 0, 1, 1))
     assert [p[:2] for p in points[3]] == [(0, 0), (0.5, 0.75), (1, 1)]
-    assert settings["mapping.samples"][:3] == ((), (), ())
-    samples = settings["mapping.samples"][3]
-    assert len(samples) == N_SAMPLES
-    assert (samples[0], samples[N_SAMPLES // 2], samples[-1]) == pytest.approx((0, 0.75, 1), abs=1e-3)
+    samples = settings["mapping.samples"]
+    assert [len(curve) for curve in samples] == [N_SAMPLES] * 3
+    middle = curves.mapping.evaluate(curves.mapping.curves[3], 100 / (N_SAMPLES - 1))
+    assert all((curve[0], curve[100], curve[-1]) == pytest.approx((0, middle, 1), abs=1e-6) for curve in samples)
+
+
+def test_curves_that_change_nothing_have_no_samples(empty):
+    nodes = material()
+    nodes.show(nodes.new("Emission", Color=nodes.new("RGBCurve")))
+    assert by_name(graph_of(nodes), "RGB Curves").settings["mapping.samples"] == ((), (), ())
 
 
 def test_images_objects_and_records(empty):

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 
 from ...scene.graph import Graph, Group, Link, Node, Plain
 
@@ -35,7 +36,7 @@ _OF_ALL_TREES = {"NodeReroute", "NodeFrame", "NodeGroupInput", "NodeGroupOutput"
 # The socket at the end of a group that makes a new one of what is linked to it
 _VIRTUAL = "__extend__"
 
-# Between a curve's first and last point
+# Of curves, as many as Cycles takes
 N_SAMPLES = 257
 
 
@@ -236,17 +237,18 @@ def _curves(mapping: Any) -> tuple[Plain, Plain]:
     mapping.initialize()
     clip = (mapping.clip_min_x, mapping.clip_min_y, mapping.clip_max_x, mapping.clip_max_y)
     points = tuple(tuple((*p.location, p.handle_type) for p in curve.points) for curve in mapping.curves)
-    samples = tuple(_samples(mapping, *pair) for pair in zip(mapping.curves, points, strict=True))
     levels = tuple(mapping.black_level), tuple(mapping.white_level)
-    return (mapping.extend, clip if mapping.use_clip else None, *levels, points), samples
+    return (mapping.extend, clip if mapping.use_clip else None, *levels, points), _samples(mapping, points)
 
 
-def _samples(mapping: Any, curve: Any, points: Plain) -> tuple[float, ...]:
-    if len(points) == 2 and all(x == y for x, y, _ in points):
-        return ()
-    first, last = points[0][0], points[-1][0]
-    steps = (first + (last - first) * i / (N_SAMPLES - 1) for i in range(N_SAMPLES))
-    return tuple(mapping.evaluate(curve, x) for x in steps)
+def _samples(mapping: Any, points: Plain) -> tuple[tuple[float, ...], ...]:
+    """Of each curve but a fourth one, which all others come after, its values at even steps."""
+    plain = [len(p) == 2 and all(x == y for x, y, _ in p) for p in points]
+    first, last = np.float32(min(p[0][0] for p in points)), np.float32(max(p[-1][0] for p in points))
+    steps = (first + np.arange(N_SAMPLES, dtype="f4") / np.float32(N_SAMPLES - 1) * (last - first)).tolist()
+    if len(points) > 3:
+        steps = [mapping.evaluate(mapping.curves[3], x) for x in steps]
+    return tuple(() if all(plain) else tuple(mapping.evaluate(curve, x) for x in steps) for curve in mapping.curves[:3])
 
 
 def _plain(value: Any) -> Plain:

@@ -228,3 +228,8 @@ def math_hyperbolic_cosine(a: Any) -> Any:
 @twin_f4
 def math_hyperbolic_tangent(a: Any) -> Any:
     return np.tanh(a)
+
+
+@twin_f4
+def squeezed(a: Any, width: Any, center: Any) -> Any:
+    return divided(ONE, ONE + math_exponent(bounded((center - a) * width)))

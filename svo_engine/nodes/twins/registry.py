@@ -18,6 +18,11 @@ def twin(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+def number_type(n: int) -> str:
+    """The type of GLSL of n numbers."""
+    return "float" if n == 1 else f"vec{n}"
+
+
 def twin_f4(function: Callable[..., Any]) -> Callable[..., Any]:
     """As `twin`, for a function of numpy's f4: numbers are scalars, vectors arrays. It returns either."""
 

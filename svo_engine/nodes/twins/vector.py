@@ -213,25 +213,12 @@ def euler_z(r: Any) -> Any:
     return _euler(r)[:, 2]
 
 
-def _rotated_about(v: Any, axis: Any, angle: Any) -> Any:
-    about = unit_of(axis)
+@twin_f4
+def rotated_by_angle(v: Any, center: Any, axis: Any, angle: Any) -> Any:
+    about, start = unit_of(axis), v - center
     s, c = np.sin(angle), np.cos(angle)
-    return c * v + s * np.cross(about, v) + (ONE - c) * (about * v).sum() * about if about.any() else v
-
-
-@twin_f4
-def axis_angle_x(axis: Any, angle: Any) -> Any:
-    return _rotated_about(np.array([1, 0, 0], "f4"), axis, angle)
-
-
-@twin_f4
-def axis_angle_y(axis: Any, angle: Any) -> Any:
-    return _rotated_about(np.array([0, 1, 0], "f4"), axis, angle)
-
-
-@twin_f4
-def axis_angle_z(axis: Any, angle: Any) -> Any:
-    return _rotated_about(np.array([0, 0, 1], "f4"), axis, angle)
+    turned = c * start + s * np.cross(about, start) + (ONE - c) * (about * start).sum() * about
+    return bounded(turned + center) if about.any() else v
 
 
 @twin_f4

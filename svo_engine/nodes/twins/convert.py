@@ -1,23 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Functions of shaders/nodes once more in Python, for constants: a chain of constants costs no shader."""
+"""As shaders/nodes/convert.glsl."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-TWINS: dict[str, Callable[..., Any]] = {}
-
-
-def twin(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Let `function` stand for the function of its name: numbers as floats, vectors as tuples, in and out."""
-    TWINS[function.__name__] = function
-    return function
-
-
-def number_type(n: int) -> str:
-    """The type of GLSL of n numbers."""
-    return "float" if n == 1 else f"vec{n}"
+from .registry import twin
 
 
 @twin

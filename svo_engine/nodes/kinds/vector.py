@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Nodes that turn and move vectors."""
+
+from __future__ import annotations
+
+from ..expr import Expr, as_vector
+from ..reader import Reader
+from . import Outputs, kind
+from .curves import curved
+
+_AXES = {"X_AXIS": (1.0, 0.0, 0.0), "Y_AXIS": (0.0, 1.0, 0.0), "Z_AXIS": (0.0, 0.0, 1.0)}
+
+
+@kind("ShaderNodeMapping")
+def mapping(n: Reader) -> Outputs:
+    """Scale, rotation and location."""
+    way = n.setting("vector_type", "POINT").lower()
+    location = [n.vector("Location")] if way in ("point", "texture") else []
+    columns = _euler(n, n.vector("Rotation"))
+    made = n.call(f"mapping_{way}", n.vector("Vector"), *location, n.vector("Scale", (1.0, 1.0, 1.0)), *columns)
+    return {"Vector": as_vector(made)}
+
+
+@kind("ShaderNodeVectorRotate")
+def vector_rotate(n: Reader) -> Outputs:
+    """A rotation about a centre."""
+    way, invert = n.setting("rotation_type", "AXIS_ANGLE"), n.setting("invert", False)
+    v, center = n.vector("Vector"), n.vector("Center")
+    if way == "EULER_XYZ":
+        columns = _euler(n, n.vector("Rotation"))
+        return {"Vector": as_vector(n.call("rotated_back" if invert else "rotated", v, center, *columns))}
+    axis = n.literal(_AXES[way]) if way in _AXES else n.vector("Axis")
+    angle = n.number("Angle")
+    if invert:
+        angle = n.call("math_subtract", n.literal(0.0), angle)
+    return {"Vector": as_vector(n.call("rotated_by_angle", v, center, axis, angle))}
+
+
+def _euler(n: Reader, rotation: Expr) -> list[Expr]:
+    """The columns of a rotation by three angles."""
+    return [n.call(f"euler_{axis}", rotation) for axis in "xyz"]
+
+
+@kind("ShaderNodeNormal")
+def normal(n: Reader) -> Outputs:
+    """A direction, and the cosine between it and another one."""
+    direction = n.call("vector_normalize", n.value(n.setting("value", (0.0, 0.0, 1.0))[:3]))
+    return {"Normal": as_vector(direction), "Dot": n.call("cosine_between", direction, n.vector("Normal"))}
+
+
+@kind("ShaderNodeVectorCurve")
+def vector_curves(n: Reader) -> Outputs:
+    """A curve for each part of a vector."""
+    return {"Vector": as_vector(curved(n, n.number("Fac", 1.0), n.vector("Vector"), 3))}
