@@ -5,6 +5,10 @@
 const uint FORMAT_SRGB8 = 0u;
 const uint FORMAT_LINEAR8 = 1u;
 const uint FORMAT_FLOAT = 2u;
+const uint ATTRIBUTE_POINT = 1u;
+const uint ATTRIBUTE_FACE = 2u;
+const uint ATTRIBUTE_CORNER = 3u;
+const uint ATTRIBUTE_INSTANCE = 4u;
 const uint WORDS_WIDTH = 4096u;
 const uint WORDS_HEIGHT = 1024u;
 const uint EXTENSION_REPEAT = 0u;
@@ -76,6 +80,7 @@ struct Material {
     uint program;
     uint first_value;
     float detail;
+    int pass_index;
 };
 
 struct Opacity {
@@ -101,6 +106,18 @@ struct Picture {
     uint is_associated;
     int tile;
     uint n_tiles;
+};
+
+struct Shown {
+    vec4 color;
+    vec3 low;
+    float random;
+    vec3 size;
+    int object_index;
+    vec3 generated;
+    uint first_row;
+    vec2 uv;
+    uint number;
 };
 
 struct Light {

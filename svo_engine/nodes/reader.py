@@ -55,6 +55,10 @@ class Reader:
         value = self.node.settings.get(name)
         return default if value is None else value
 
+    def generated(self) -> Expr:
+        """Coordinates from 0 to 1 in the object's box: where textures look that are told nothing else."""
+        return as_vector(call("generated_of_point"))
+
     def call(self, function: str, *arguments: Expr) -> Expr:
         """A call of a function of shaders/nodes; `["field"]` takes one of several outputs."""
         return call(function, *arguments)

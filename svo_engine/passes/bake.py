@@ -16,10 +16,13 @@ from ..gpu.passes import Pass
 from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
 from ..gpu.texels import TEXEL, Texels
+from ..scene.camera import make_view
 from ..scene.layouts import CONSTANTS
+from ..scene.types import Camera
 from .albedo import Albedo
 from .upload.looks import Looks
 from .upload.placing import Placing
+from .upload.shading import Shading, view_uniforms
 from .upload.surfaces import Surfaces
 from .upload.trees import Trees, evaluate_trees
 from .voxelize import scan
@@ -39,7 +42,8 @@ PART_OF_SOFTWARE = 1 << 14
 PLANES = CONSTANTS["HIT_PLANES"] + CONSTANTS["POINT_PLANES"]
 
 
-def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, table: Albedo) -> Looks:
+def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, table: Albedo, shading: Shading,
+         camera: Camera | None) -> Looks:
     """Evaluate the trees of all triangles, as finely as MOST allows. GpuError if the cells do not fit the device."""
     scope = device.scope()
     traits = trees.compiled.traits
@@ -53,7 +57,9 @@ def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, tab
             n_rows = -(-placing.n_work // 2)
             texels = scope.texels("baked", TEXEL * (n_rows + n_cells))
             device.dispatch(ROWS, placing.n_work, **common, Firsts=firsts, Rows=texels.buffer, u_cell=cell)
-            given = {**placing.geometry, **surfaces.materials, "Values": trees.values, "u_albedo": table.table,
+            view = None if camera is None else make_view(camera)
+            given = {**placing.geometry, **surfaces.materials, **shading.read,
+                     **view_uniforms(view, placing.centre_ws), "Values": trees.values, "u_albedo": table.table,
                      "u_centre": placing.centre_ws}
             brightest = _evaluate(device, scratch, trees, texels, {**common, "u_n_work": placing.n_work}, given,
                                   n_rows, n_cells, cell)

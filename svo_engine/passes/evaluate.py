@@ -13,6 +13,7 @@ from ..scene.layouts import CONSTANTS
 from .parts import EYE, Part, Parts
 from .raster import Eye
 from .upload import GpuScene
+from .upload.shading import view_uniforms
 from .upload.trees import evaluate_trees
 
 MATTE = Pass("evaluate/matte.comp.glsl")
@@ -47,8 +48,8 @@ def evaluate_met(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, pa
 
 def _of_trees(gpu_scene: GpuScene, eye: Eye, points: Resources, slots: Resources, rays: str, depth: int) -> Resources:
     """What compiled trees are given."""
-    return {**gpu_scene.of_trees, **points, **slots, "u_footprint": eye.footprint, "u_rays": CONSTANTS[rays],
-            "u_depth": depth, "u_wants_mean": False}
+    return {**gpu_scene.of_trees, **view_uniforms(eye.view, gpu_scene.centre_ws), **points, **slots,
+            "u_footprint": eye.footprint, "u_rays": CONSTANTS[rays], "u_depth": depth, "u_wants_mean": False}
 
 
 def all_slots(parts: Parts, part: Part) -> Resources:

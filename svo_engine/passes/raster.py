@@ -42,15 +42,21 @@ class Targets:
 class Eye:
     """What one sample looks through. world_from_clip: (4, 4) f8, to the centre.
 
+    view      without the shift of the filter
     tiles     texture u4: not 0 where a tile of 8 by 8 pixels needs no more light
     is_drawn  whether the rasteriser has found what the pixels see
     """
 
-    size: tuple[int, int]
+    view: View
     world_from_clip: np.ndarray
     tiles: Texture
     sample: int
     is_drawn: bool
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) in pixels."""
+        return self.view.size
 
     def camera(self) -> Resources:
         """The uniforms of bind/camera.glsl."""
@@ -107,7 +113,7 @@ def look(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, sett
     is_drawn = tracer is None or not can_trace(gpu_scene, tracer)
     if is_drawn:
         _draw(device, gpu_scene, targets, clip_from_world, settings, sample)
-    return Eye(view.size, np.linalg.inv(clip_from_world), tiles, sample, is_drawn)
+    return Eye(view, np.linalg.inv(clip_from_world), tiles, sample, is_drawn)
 
 
 def raster(device: Device, gpu_scene: GpuScene, eye: Eye, targets: Targets, tracer: Tracer | None,

@@ -31,7 +31,7 @@ MATERIAL: Fields = (("base_color", "vec3"), ("alpha", "float"), ("emission", "ve
                     ("transmission", "float"), ("normal_strength", "float"), ("base_color_texture", "int"),
                     ("roughness_texture", "int"), ("metallic_texture", "int"), ("emission_texture", "int"),
                     ("alpha_texture", "int"), ("normal_texture", "int"), ("program", "uint"),
-                    ("first_value", "uint"), ("detail", "float"))
+                    ("first_value", "uint"), ("detail", "float"), ("pass_index", "int"))
 
 # What a ray must know of a material: which share of all rays it stops, and the texture that multiplies that, or -1
 OPACITY: Fields = (("alpha", "float"), ("alpha_texture", "int"))
@@ -44,6 +44,11 @@ TEXTURE: Fields = (("u_from_uv", "vec3"), ("picture", "uint"), ("v_from_uv", "ve
 # rows from here on that are tiles of the same image
 PICTURE: Fields = (("first_word", "uint"), ("format", "uint"), ("width", "int"), ("height", "int"),
                    ("is_associated", "uint"), ("tile", "int"), ("n_tiles", "uint"))
+
+# What trees ask for of an instance. low, size: the box of the mesh's generated coordinates, metres, object space;
+# number: its place in the scene's order; first_row: of its mesh among the attributes
+SHOWN: Fields = (("color", "vec4"), ("low", "vec3"), ("random", "float"), ("size", "vec3"), ("object_index", "int"),
+                 ("generated", "vec3"), ("first_row", "uint"), ("uv", "vec2"), ("number", "uint"))
 
 # `scene.types.Light`; axes are unit vectors, the lamp shines along -axis_z. size: half extents (AREA), radius in
 # size.x (POINT, SPOT), tangent of half the angle in size.x (SUN). spot: cosine of half the angle, blend
@@ -83,10 +88,12 @@ BVH_INSTANCE: Fields = (("inv_x", "vec4"), ("inv_y", "vec4"), ("inv_z", "vec4"),
 CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("tree_height", "uint"))
 
 STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Texture": TEXTURE, "Picture": PICTURE,
-           "Light": LIGHT, "LightNode": LIGHT_NODE, "Emitter": EMITTER, "Voxel": VOXEL, "Surfel": SURFEL,
-           "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
+           "Shown": SHOWN, "Light": LIGHT, "LightNode": LIGHT_NODE, "Emitter": EMITTER, "Voxel": VOXEL,
+           "Surfel": SURFEL, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE,
+           "Cluster": CLUSTER}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
+             "ATTRIBUTE_POINT": 1, "ATTRIBUTE_FACE": 2, "ATTRIBUTE_CORNER": 3, "ATTRIBUTE_INSTANCE": 4,
              "WORDS_WIDTH": 4096, "WORDS_HEIGHT": 1024,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
              "LIGHT_POINT": 0, "LIGHT_SUN": 1, "LIGHT_SPOT": 2, "LIGHT_AREA": 3,

@@ -88,7 +88,8 @@ def picture(device, seen: Wall, is_filtered: bool = True, plane: str = "DIFFUSE_
     with device.scope() as scope, denoiser.scope:
         film = make_film(scope, view, FILM_PLANES, np.zeros(3))
         film.sums.write(film_planes(seen, plane))
-        film.n_samples, film.eye = len(seen.samples), Eye(size, world_from_clip, film.tiles, 0, True)
+        eye = Eye(view, world_from_clip, film.tiles, 0, True)
+        film.n_samples, film.eye = len(seen.samples), eye
         pixels = read_picture(device, film, denoiser, []).planes["Combined"]
     assert np.array_equal(pixels[..., 3], np.ones(size[::-1]))
     assert np.allclose(pixels[..., :3], pixels[..., :1], rtol=1e-5)

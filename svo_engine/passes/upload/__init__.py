@@ -23,6 +23,7 @@ from .cutouts import Cutouts, mark_cutouts, opacity_of
 from .lamps import Lamps, light_rows, upload_lamps
 from .looks import Looks
 from .placing import Draw, Placing, place
+from .shading import Shading, upload_shading
 from .shapes import pack_units, upload_shapes
 from .sky import Sky, linear_pixels, upload_sky, world_uniforms
 from .surfaces import Surfaces, upload_surfaces
@@ -42,6 +43,7 @@ class GpuScene:
     needs: Needs
     placing: Placing
     trees: Trees
+    shading: Shading
     surfaces: Surfaces
     looks: Looks
     cutouts: Cutouts
@@ -71,9 +73,9 @@ class GpuScene:
 
     @property
     def of_trees(self) -> Resources:
-        """All that functions of shaders/nodes can ask for."""
-        return {**self.geometry, **self.materials, "Values": self.trees.values, "u_albedo": self.table.table,
-                "u_centre": self.centre_ws}
+        """All that functions of shaders/nodes can ask for, but `view_uniforms`."""
+        return {**self.geometry, **self.materials, "Values": self.trees.values, **self.shading.read,
+                "u_albedo": self.table.table, "u_centre": self.centre_ws}
 
     @property
     def centre_ws(self) -> np.ndarray:
@@ -112,10 +114,12 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     placing = make("placing", place, shapes, scene.instances)
     surfaces = make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images, trees)
     table = make("albedo", albedo, needs.principled, n_kept=2)
-    looks = make("looks", bake, placing, surfaces, trees, table)
+    asked = trees.compiled.attributes if trees.passes else None
+    shading = make("shading", upload_shading, placing, scene.meshes, scene.instances, asked)
+    looks = make("looks", bake, placing, surfaces, trees, table, shading, scene.camera if trees.want_view else None)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     return GpuScene(
-        scope, scene, needs, placing, trees, surfaces, looks,
+        scope, scene, needs, placing, trees, shading, surfaces, looks,
         make("cutouts", mark_cutouts, placing, looks, needs.skips),
         make("lamps", upload_lamps, scene.lights, placing.centre_ws), make("sky", upload_sky, world),
         table)

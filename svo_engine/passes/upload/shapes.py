@@ -18,7 +18,8 @@ from ...scene.types import Mesh
 class Shapes:
     """buffers: those of bind/geometry.glsl that know no instance; meshes: what they hold.
 
-    first_triangle  (n_meshes + 1,) i8, ascending
+    first_vertex, first_triangle
+                    (n_meshes + 1,) i8, ascending
     n_slots         (n_meshes,) i8, material slots that the triangles of each mesh name
     boxes           (n_meshes, 2, 3) f8, metres, object space: lowest and highest corner; not finite without a vertex
     """
@@ -26,6 +27,7 @@ class Shapes:
     scope: GpuScope
     meshes: tuple[Mesh, ...]
     buffers: Resources
+    first_vertex: np.ndarray
     first_triangle: np.ndarray
     n_slots: np.ndarray
     boxes: np.ndarray
@@ -51,7 +53,7 @@ def upload_shapes(device: Device, meshes: tuple[Mesh, ...], has_uvs: bool) -> Sh
         "CornerNormals": scope.buffer("corner normals", pack_units(joined("corner_normals", 3))),
         "CornerUvs": scope.buffer("corner uvs", joined("corner_uvs", 2) if has_uvs else np.zeros((1, 2), "f4"))}
     n_slots = np.array([int(m.material_slots.max()) + 1 if len(m.material_slots) else 1 for m in meshes], "i8")
-    return Shapes(scope, meshes, buffers, first_triangle, n_slots, mesh_boxes(meshes))
+    return Shapes(scope, meshes, buffers, first_vertex, first_triangle, n_slots, mesh_boxes(meshes))
 
 
 def pack_units(vectors: np.ndarray) -> np.ndarray:

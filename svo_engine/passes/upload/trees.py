@@ -37,6 +37,11 @@ class Trees:
         """What a frame must have compiled."""
         return tuple((pass_, {}) for pass_ in self.passes)
 
+    @property
+    def want_view(self) -> bool:
+        """Whether any asks where the camera is."""
+        return any("u_view_from_world" in pass_.wanted for pass_ in self.passes)
+
     def told(self) -> list[str]:
         """A sentence for each thing in a tree that is not as in Blender."""
         return [f"Material '{name}': {note}" for name, note in self.compiled.notes]
