@@ -22,7 +22,7 @@ struct Cells {
 
 Cells cells_of(int n, int metric, float exponent, float randomness)
 {
-    return Cells(n, metric, abs(exponent) < 1e-3 ? 1e-3 : exponent, clamp(randomness, 0.0, 1.0));
+    return Cells(n, metric, exponent, clamp(randomness, 0.0, 1.0));
 }
 
 // Where in its cell, from its corner, the point of a cell lies.
@@ -50,10 +50,10 @@ float sum_of(vec4 v, int n)
     return v.x + (n > 1 ? v.y : 0.0) + (n > 2 ? v.z : 0.0) + (n > 3 ? v.w : 0.0);
 }
 
-// A power of a number that is not negative.
-float safe_power(float x, float exponent)
+// A power of a number that is not negative. Exponents are not either, in Blender.
+float cell_power(float x, float exponent)
 {
-    return x > 0.0 ? pow(x, exponent) : exponent > 0.0 ? 0.0 : BEYOND;
+    return x > 0.0 ? pow(x, exponent) : exponent == 0.0 ? 1.0 : 0.0;
 }
 
 // What tells which of two vectors is longer. The length itself is `cell_length` of it.
@@ -68,15 +68,16 @@ float cell_measure(Cells c, vec4 v)
         return sum_of(v, c.n);
     if (c.metric == METRIC_CHEBYCHEV)
         return max(max(v.x, v.y), max(c.n > 2 ? v.z : 0.0, c.n > 3 ? v.w : 0.0));
-    return sum_of(vec4(safe_power(v.x, c.exponent), safe_power(v.y, c.exponent), c.n > 2 ? safe_power(v.z, c.exponent) : 0.0,
-                       c.n > 3 ? safe_power(v.w, c.exponent) : 0.0), c.n);
+    vec4 powers = vec4(cell_power(v.x, c.exponent), cell_power(v.y, c.exponent),
+                       c.n > 2 ? cell_power(v.z, c.exponent) : 0.0, c.n > 3 ? cell_power(v.w, c.exponent) : 0.0);
+    return sum_of(powers, c.n);
 }
 
 float cell_length(Cells c, float measure)
 {
     if (c.n == 1 || c.metric == METRIC_MANHATTAN || c.metric == METRIC_CHEBYCHEV)
         return measure;
-    return c.metric == METRIC_EUCLIDEAN ? sqrt(measure) : safe_power(measure, 1.0 / c.exponent);
+    return c.metric == METRIC_EUCLIDEAN ? sqrt(measure) : cell_power(measure, 1.0 / c.exponent);
 }
 
 // Half the longest way between the points of neighbours.

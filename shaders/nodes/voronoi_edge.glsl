@@ -33,7 +33,7 @@ float edge_of_cell(Cells c, vec4 p)
             edge = min(edge, dot(0.5 * (nearest + v), way) / sqrt(apart));
         around = next_cell(around, c.n, 1);
     }
-    return edge;
+    return finite(edge);
 }
 
 float voronoi_edge(int n, bool normalizes, vec4 p, float detail, float roughness, float lacunarity, float randomness)
@@ -80,5 +80,5 @@ float voronoi_radius(int n, vec4 p, float randomness)
         }
         around = next_cell(around, n, 1);
     }
-    return finite(0.5 * sqrt(least));
+    return 0.5 * sqrt(finite(least));
 }

@@ -30,6 +30,7 @@ CellsSeen nearest_cell(Cells c, vec4 p, bool second)
     float least = BEYOND, less = BEYOND;
     for (int i = 0, end = n_cells(c.n, 1, p); i < end; i++) {
         float d = cell_measure(c, vec4(around) + cell_point(c, cell + around) - f);
+        d = second ? cell_length(c, d) : d;
         if (d < least) {
             less = least;
             runner_up = best;
@@ -42,7 +43,7 @@ CellsSeen nearest_cell(Cells c, vec4 p, bool second)
         around = next_cell(around, c.n, 1);
     }
     best = cell + (second ? runner_up : best);
-    return CellsSeen(cell_length(c, second ? less : least), cell_color(c.n, best), vec4(best) + cell_point(c, best));
+    return CellsSeen(second ? finite(less) : cell_length(c, finite(least)), cell_color(c.n, best), vec4(best) + cell_point(c, best));
 }
 
 // A smooth minimum over the cells in order. smoothness: half of what is at most blended, above 0.
