@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, copysign, sin
+from math import copysign, cos, sin
 
 import numpy as np
 
