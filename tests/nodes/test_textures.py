@@ -74,6 +74,25 @@ def test_less_than_an_octave_of_musgrave_is_part_of_it(session):
         assert np.allclose(ours, without + 0.25 * (whole - without), atol=1e-6)
 
 
+def test_unlinked_textures_look_at_generated_coordinates(session):
+    """Through a whole frame. White noise has no such coordinates: it is of one colour."""
+    pytest.importorskip("bpy", exc_type=ImportError)
+    from tests.nodes import cards
+
+    def unlinked(kind, name, **inputs):
+        def make(nodes):
+            return next(o for o in nodes.new(f"Tex{kind}", **inputs).outputs if o.identifier == name)
+        return make
+
+    makers = [unlinked("Checker", "Color", Scale=2.0), unlinked("Noise", "Fac", Scale=1.0),
+              unlinked("WhiteNoise", "Color"), unlinked("Voronoi", "Distance", Scale=1.0),
+              unlinked("Wave", "Fac", Scale=0.3),
+              unlinked("Gabor", "Value", Scale=1.0, Frequency=0.5), unlinked("Brick", "Color", Scale=2.0)]
+    ours, _, errors = cards.compare(session, makers)
+    assert errors.max() < 1e-3
+    assert np.ptp(ours[2], axis=(0, 1)).max() < 1e-6
+
+
 def test_edits_of_values_keep_the_text():
     """What artists turn belongs to the values."""
     for kind, name in (("Noise", "Scale"), ("Voronoi", "Randomness"), ("Wave", "Distortion"), ("Brick", "Bias")):
