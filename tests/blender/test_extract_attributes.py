@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 
+from svo_engine.blender.extract.attributes import seen
 from tests.blender.build import extracted, plane
 
 
@@ -47,6 +48,15 @@ def test_values_lie_where_they_did(empty, domain):
     else:
         normals = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
         np.testing.assert_allclose(found.values, normals / np.linalg.norm(normals, axis=1, keepdims=True), atol=1e-6)
+
+
+@pytest.mark.parametrize(("dtype", "is_own"), [("f4", True), ("f8", False), ("i4", False)])
+def test_blenders_own_memory_is_seen_only_where_it_holds_what_is_asked_for(empty, dtype, is_own):
+    values = np.arange(8, dtype="f4") + 1
+    data = attribute(cube(), "own", "FLOAT", "POINT", values).data
+    found = seen(data, "value", (8, 1), dtype)
+    np.testing.assert_array_equal(found.ravel(), values)
+    assert (found.ctypes.data == data[0].as_pointer()) == is_own
 
 
 @pytest.mark.parametrize(("kind", "prop", "values"), [

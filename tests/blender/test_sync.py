@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 
-from svo_engine.blender.sync import Sync, digest
+from svo_engine.blender.sync import Sync, copies
 from tests.blender.build import place, plane
 from tests.blender.following import Followed, differences, space_of_window, studio
 from tests.blender.test_extract_instances import Geometry
@@ -120,7 +120,7 @@ def material_of_a_face():
 
 @pytest.mark.parametrize("act", [edit_mesh, smooth, second_uv_map, move_uv, normals, faces, material_of_a_face])
 def test_arrays_tell_whether_a_large_mesh_has_changed(followed, monkeypatch, act):
-    monkeypatch.setattr(digest, "_FEWEST_CORNERS", 0)
+    monkeypatch.setattr(copies, "_FEWEST_CORNERS", 0)
     followed.after(bpy.data.meshes["Textured"].update)
     counts, parts = done(followed, bpy.data.meshes["Textured"].update)
     assert ("meshes" in counts, parts) == (False, set())
@@ -128,8 +128,25 @@ def test_arrays_tell_whether_a_large_mesh_has_changed(followed, monkeypatch, act
     assert differences(followed.scene, followed.fresh()) == []
 
 
+@pytest.mark.parametrize(("is_smooth", "n_read"), [(True, 1), (False, 0)])
+def test_sharp_edges_count_where_faces_are_smooth(empty, monkeypatch, is_smooth, n_read):
+    monkeypatch.setattr(copies, "_FEWEST_CORNERS", 0)
+    bpy.ops.mesh.primitive_cube_add()
+    mesh = bpy.context.object.data
+    mesh.polygons.foreach_set("use_smooth", [is_smooth] * 6)
+    mesh.edges[0].use_edge_sharp = True
+    followed = Followed()
+
+    def sharpen():
+        mesh.edges[5].use_edge_sharp = True
+        mesh.update()
+
+    assert done(followed, sharpen)[0].get("meshes", 0) == n_read
+    assert differences(followed.scene, followed.fresh()) == []
+
+
 def test_large_mesh_is_not_read_again_for_its_materials_alone(followed, monkeypatch):
-    monkeypatch.setattr(digest, "_FEWEST_CORNERS", 0)
+    monkeypatch.setattr(copies, "_FEWEST_CORNERS", 0)
     followed.after(bpy.data.meshes["Textured"].update)
     counts, parts = done(followed, lambda: change(thing("Textured").material_slots[0],
                                                    material=bpy.data.materials["Other"]))

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 
-from svo_engine.blender.sync import digest
+from svo_engine.blender.sync import copies
 from tests.blender.build import image, material, place, plane
 from tests.blender.following import Followed, area_of_window, differences, space_of_window, studio
 from tests.blender.test_extract_instances import Geometry
@@ -347,7 +347,7 @@ ALONE = (undo, redo, edit_mode, local_view, frame, setting, rename)
 @pytest.mark.parametrize("seed", range(16))
 def test_what_is_kept_is_what_is_read_anew(seed, monkeypatch):
     if seed % 4 < 2:  # as if all meshes were large
-        monkeypatch.setattr(digest, "_FEWEST_CORNERS", 0)
+        monkeypatch.setattr(copies, "_FEWEST_CORNERS", 0)
     busy_studio()
     bpy.ops.ed.undo_push(message="Studio")
     followed = Followed(space_of_window() if seed % 2 else None)

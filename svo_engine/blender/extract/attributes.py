@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable, Collection
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -55,3 +57,22 @@ def array(elements: Any, name: str, shape: tuple[int, ...], dtype: str) -> np.nd
     values = np.empty(shape, dtype)
     elements.foreach_get(name, values.ravel())
     return values
+
+
+def seen(elements: Any, name: str, shape: tuple[int, ...], dtype: str) -> np.ndarray:
+    """As `array`, but Blender's own memory where that holds nothing else: for a look, and before anything is done to
+    what has the elements."""
+    size = np.dtype(dtype).itemsize * prod(shape)
+    if shape[0] > 1:
+        first, last = elements[0], elements[shape[0] - 1]
+        start = first.as_pointer()
+        if (last.as_pointer() - start) * shape[0] == size * (shape[0] - 1):
+            values = np.frombuffer(memoryview((ctypes.c_char * size).from_address(start)), dtype).reshape(shape)
+            ends = (first, values[0]), (last, values[-1])
+            if all(_bytes_of(element, name, dtype) == row.tobytes() for element, row in ends):
+                return values
+    return array(elements, name, shape, dtype)
+
+
+def _bytes_of(element: Any, name: str, dtype: str) -> bytes:
+    return np.array(getattr(element, name), dtype).tobytes()

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...scene.meshes import make_mesh
 from ...scene.types import Color, Mesh
-from .attributes import array, read_attributes
+from .attributes import array, read_attributes, seen
 
 
 def read_mesh(owner: Any, warn: Callable[[str], object]) -> Mesh | None:
@@ -60,7 +60,7 @@ def _corners(mesh: Any, n_triangles: int) -> np.ndarray:
     """Corner indices (n_triangles, 3) i4; known without reading them if all faces are triangles."""
     if n_triangles == len(mesh.polygons) and len(mesh.loops) == 3 * n_triangles:
         return np.arange(3 * n_triangles, dtype="i4").reshape(-1, 3)
-    return array(mesh.loop_triangles, "loops", (n_triangles, 3), "i4")
+    return seen(mesh.loop_triangles, "loops", (n_triangles, 3), "i4").copy()  # else Blender asks each by itself
 
 
 def _slots(mesh: Any, n_triangles: int) -> np.ndarray | None:

@@ -10,17 +10,20 @@ from typing import Any
 from ...scene.types import Mesh
 from ..extract.meshes import read_mesh
 from .changes import Uid, uid_of
-from .digest import Digest, digest_of
+from .copies import Copy, copy_of, marks_of
 from .same import is_same
 
 
 @dataclass(eq=False)
 class _Kept:
-    """One evaluated mesh. sources: its objects and their original data; is_used: in the walk that is on its way."""
+    """One evaluated mesh. sources: its objects and their original data; is_used: in the walk that is on its way.
+
+    copy  of a large one
+    """
 
     mesh: Mesh | None
     notes: tuple[str, ...]
-    digest: Digest | None
+    copy: Copy | None
     sources: set[Uid] = field(default_factory=set)
     is_used: bool = True
 
@@ -32,7 +35,7 @@ class KeptMeshes:
     def __init__(self) -> None:
         self.n_read = 0
         self._kept: dict[int, _Kept] = {}
-        self._doubted: dict[Digest, _Kept] = {}
+        self._doubted: dict[tuple[object, ...], list[_Kept]] = {}  # by their marks
         self._before: dict[tuple[object, ...], list[Mesh]] = {}  # what may be the same when it is read again
         self._changed: set[Uid] = set()
 
@@ -79,19 +82,21 @@ class KeptMeshes:
         return kept
 
     def _doubt(self, those: Iterable[_Kept]) -> None:
-        self._doubted |= {kept.digest: kept for kept in those if kept.digest}
+        for kept in those:
+            if kept.copy:
+                self._doubted.setdefault(kept.copy.marks, []).append(kept)
 
     def _read(self, owner: Any) -> _Kept:
-        digest = digest_of(owner.data)
-        if digest in self._doubted:
-            last = self._doubted[digest]
-            return _Kept(last.mesh, last.notes, digest)
+        marks = marks_of(owner.data)
+        for last in self._doubted.get(marks, ()) if marks else ():
+            if last.copy and last.copy.is_of(owner.data):
+                return _Kept(last.mesh, last.notes, last.copy)
         self.n_read += 1
         notes: dict[str, None] = {}
         mesh = read_mesh(owner, notes.setdefault)
         if mesh is not None:
             mesh = next((old for old in self._before.get(_likeness(mesh), ()) if is_same(old, mesh)), mesh)
-        return _Kept(mesh, tuple(notes), digest)
+        return _Kept(mesh, tuple(notes), copy_of(owner.data, marks) if marks else None)
 
 
 def _sources(owner: Any) -> set[Uid]:
