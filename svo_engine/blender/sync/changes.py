@@ -52,7 +52,7 @@ class Changes:
     lamps: dict[Uid, Any] = field(default_factory=dict)
     geometry: set[Uid] = field(default_factory=set)
     materials: dict[Uid, Any] = field(default_factory=dict)
-    reloaded: set[Uid] = field(default_factory=set)
+    reloaded: dict[Uid, Any] = field(default_factory=dict)
     images: set[Uid] = field(default_factory=set)
     has_world: bool = False
     has_scene: bool = False
@@ -74,6 +74,8 @@ def changes_of(depsgraph: Any) -> Changes:
             has_lights |= isinstance(thing, bpy.types.Light)
             has_actions |= isinstance(thing, bpy.types.Action)
             _note_data(found, thing, update)
+    if found.has_scene:  # undo may bring back what a frame change has made of a material, and names it as nothing
+        found.materials.update(found.reloaded)
     has_shaders = bool(found.materials or found.reloaded or found.images)
     # An object is named as shaded with each of its materials, and for its own settings. A script that changes both at
     # once, and moves nothing, has the latter seen at the next walk
@@ -112,7 +114,7 @@ def _note_data(found: Changes, thing: Any, update: Any) -> None:
         if update.is_updated_shading:
             found.materials[uid] = thing
         else:
-            found.reloaded.add(uid)
+            found.reloaded[uid] = thing
     elif isinstance(thing, bpy.types.World):
         found.has_world = True
     elif isinstance(thing, bpy.types.Image):
