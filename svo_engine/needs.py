@@ -35,6 +35,7 @@ class Needs:
     path_vertices  the most vertices of a path, the eye's own included; 2 where no mirror shows another one
     skips          whether anything is skipped; a developer's setting, to show that pictures do not depend on it
     trees          a used material is a compiled tree of nodes
+    passes         one of these lets rays pass as they came
     """
 
     light: bool
@@ -49,6 +50,7 @@ class Needs:
     path_vertices: int
     skips: bool
     trees: bool = False
+    passes: bool = False
 
     def told(self) -> dict[str, str]:
         """What is skipped -> why."""
@@ -72,7 +74,8 @@ def needs_of(scene: Scene, settings: RenderSettings, compiled: Compiled | None =
     trees = [t for i in numbers if compiled and (t := compiled.traits[i])]
     if not settings.skip_unneeded:
         return Needs(light=True, lamps=True, emission=True, world=True, principled=True, textures=True,
-                     alpha=True, gloss=True, glass=True, path_vertices=LONGEST_PATH, skips=False, trees=bool(trees))
+                     alpha=True, gloss=True, glass=True, path_vertices=LONGEST_PATH, skips=False, trees=bool(trees),
+                     passes=any(t.passes for t in trees))
     used = [scene.materials[i] for i in numbers if not (compiled and compiled.traits[i])]
     lamps = any(max(light.emitted) > 0 for light in scene.lights)
     emission = any(max(m.emission) > 0 for m in used) or any(t.emits for t in trees)
@@ -84,7 +87,8 @@ def needs_of(scene: Scene, settings: RenderSettings, compiled: Compiled | None =
         principled=any(not is_matte(m) for m in used), textures=bool(trees) or any(max(m.textures) >= 0 for m in used),
         alpha=any(has_alpha(m) for m in used) or any(t.passes for t in trees), gloss=gloss,
         glass=any(m.transmission > 0 for m in used) or any(t.transmits for t in trees),
-        path_vertices=LONGEST_PATH if mirror else 2, skips=True, trees=bool(trees))
+        path_vertices=LONGEST_PATH if mirror else 2, skips=True, trees=bool(trees),
+        passes=any(t.passes for t in trees))
 
 
 def is_glossy(material: Material) -> bool:

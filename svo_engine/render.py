@@ -23,7 +23,7 @@ from .passes.cache import LightCache, light_cache, link
 from .passes.debug import make_attribute, show_surfels, show_voxels
 from .passes.denoise import read_picture
 from .passes.denoise.choice import Denoiser, make_denoiser, wanted
-from .passes.evaluate import evaluate
+from .passes.evaluate import evaluate, see_through
 from .passes.gather import gather_cones, gather_rays
 from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
@@ -143,7 +143,9 @@ def _in_parts(device: Device, gpu_scene: GpuScene, targets: Targets, tracer: Tra
     def show(eye: Eye) -> None:
         for part in parts:
             raster(device, gpu_scene, eye, targets, tracer, settings, parts, part)
-            evaluate(device, gpu_scene, eye, parts, part)
+            evaluate(device, gpu_scene, eye, parts, part, may_pass=tracer is not None)
+            if tracer:
+                see_through(device, gpu_scene, eye, tracer, parts, part)
             for end in ends:
                 end(eye, part)
 

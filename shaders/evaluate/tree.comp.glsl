@@ -15,6 +15,7 @@ uniform uint u_program;
 uniform uint u_rays;         // RAY_* of the hits
 uniform uint u_depth;
 uniform bool u_wants_mean;
+uniform bool u_may_pass;     // whether what a tree lets through goes on behind it
 
 bool is_ours(uint slot)
 {
@@ -32,9 +33,16 @@ void evaluate(uint slot)
     Closures c = no_closures(g, 0.0, u_wants_mean);
     surface(g, c);
     Point p = point_of(hit, seen.surface, facing(c.normal, wo));
-    p.diffuse = c.diffuse;
-    p.emission = c.emission;
-    if (u_wants_mean)
-        p.chance = 1.0 - clamp(dot(c.transparency, vec3(1.0 / 3.0)), 0.0, 1.0);
+    float opacity = 1.0 - clamp(dot(c.transparency, vec3(1.0 / 3.0)), 0.0, 1.0);
+    if (u_may_pass && opacity <= sobol_point(hit.number, hash(hit.seed + 17u)).x) {
+        p.kind = POINT_PASSES;
+        put_point(u_set, slot, p);
+        return;
+    }
+    // Rays come here that opacity has not let pass: what of them is left counts for all
+    float share = u_wants_mean ? 1.0 : 1.0 / max(opacity, 1e-4);
+    p.diffuse = share * c.diffuse;
+    p.emission = share * c.emission;
+    p.chance = u_wants_mean ? opacity : 0.0;
     put_point(u_set, slot, p);
 }

@@ -42,6 +42,7 @@ const uint POINT_ROUGH = 16u;
 const uint POINT_DONE = 32u;
 const uint POINT_LIFTED = 64u;
 const uint POINT_GLOWS = 128u;
+const uint POINT_PASSES = 256u;
 const uint HIT_PLANES = 3u;
 const uint POINT_PLANES = 6u;
 const uint LOBES_PLANES = 11u;

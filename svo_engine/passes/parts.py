@@ -76,6 +76,7 @@ def make_parts(device: Device, size: tuple[int, int], n_ends: int, n_draws: int,
     tiles = max(int(device.limits["GL_MAX_SHADER_STORAGE_BLOCK_SIZE"]) // (PLANE * first) // 64, 1)
     n_slots = -(-size[0] // 8) * -(-size[1] // 8) * 64
     n = min(n_slots, most, 64 * tiles)
-    lists = [scope.buffer(label, LIST_HEAD + 4 * n * needs.gloss) for label in ("paths", "paths that go on")]
+    n_listed = n * (needs.gloss or needs.passes)
+    lists = [scope.buffer(label, LIST_HEAD + 4 * n_listed) for label in ("paths", "paths that go on")]
     return Parts(scope, n_slots, n, scope.buffer("wave", PLANE * first * n), planes.pop("met"), planes,
                  (lists[0], lists[1]))

@@ -13,13 +13,12 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.program import Resources
 from .cache import LightCache
-from .evaluate import ONCE, all_slots, evaluate_met
+from .evaluate import all_slots, evaluate_met, listed
 from .lights import Lights
 from .parts import EYE, LIST_HEAD, Part, Parts
 from .raster import Eye
 from .tracer import Tracer
 from .upload import GpuScene
-from .upload.trees import BUSY
 
 DRAW = Pass("lights/draw.comp.glsl")
 STEP = Pass("path/step.comp.glsl")
@@ -44,7 +43,7 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
     going, points = step(EYE, part.n, all_slots(parts, part), 0), EYE
     with device.batch("path/rounds"):
         for n_legs in range(1, most + 1):
-            n, slots = _listed(device, going, part.n)
+            n, slots = listed(device, going, part.n)
             if not n:
                 return
             if has_emitters:
@@ -57,12 +56,3 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
                                 **parts.of(part, points), **slots, u_seed_offset=3)
             going = step(points, n, slots, n_legs)
             device.profiler.counts["path rounds"] += 1
-
-
-def _listed(device: Device, slots: Buffer, most: int) -> tuple[int, Resources]:
-    """Invocations for the slots of a list, and what bind/list.glsl reads then."""
-    n = min(most, BUSY)
-    listed: Resources = {"List": slots, "u_is_listed": True, "u_n_all": 0}
-    if device.profiler.is_software:
-        return int.from_bytes(slots.read(4), "little"), {**listed, "u_step": ONCE}
-    return n, {**listed, "u_step": n}

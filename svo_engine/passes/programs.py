@@ -36,7 +36,8 @@ from .variants import variant_of
 
 Variant = tuple[Pass, Mapping[str, bool]]
 
-_TRACE = (raster.CAMERA, cache.LINK, cache.DIRECT, gather.RAYS, path.STEP)  # the passes that trace exact rays
+# The passes that trace exact rays
+_TRACE = (raster.CAMERA, raster.BEYOND, cache.LINK, cache.DIRECT, gather.RAYS, path.STEP)
 _EMITTERS = (cache.FOUND, cache.DRAW, gather.FOUND, gather.DRAW)
 
 
@@ -58,7 +59,7 @@ def all_programs(is_software: bool) -> tuple[Variant, ...]:
     """All that any frame could run, most needed first."""
     everything = [
         *_rays(True, True), *_picture(True, False, is_software), *_picture(True, True, is_software),
-        *bake.PASSES,
+        *bake.PASSES, raster.BEYOND,
         denoise.COMPOSE, planes.MEAN, adaptive.MEASURE, adaptive.DECIDE, atrous.PREPARE, atrous.ATROUS, *_voxels(),
         light.INJECT, light.MIP, gather.CONES, debug.SURFELS, debug.VOXELS, debug.ATTRIBUTE]
     return _variants(list(dict.fromkeys(everything)), is_software)
@@ -71,7 +72,9 @@ def _variants(used: list[Pass], is_software: bool) -> tuple[Variant, ...]:
 def _of_view(needs: Needs, settings: RenderSettings, is_software: bool) -> Iterator[Pass]:
     is_drawn = is_software or needs.alpha
     if needs.trees:
-        yield from bake.PASSES
+        yield from (*bake.PASSES, albedo.INTEGRATE)
+    if needs.passes and settings.method == "rays":
+        yield from (raster.BEYOND, evaluate.PRINCIPLED)
     if settings.view.startswith("voxel"):
         yield from _voxels()
         yield from (debug.VOXELS, debug.ATTRIBUTE, light.INJECT, light.MIP, raster.VISIBILITY)

@@ -24,6 +24,7 @@ from .upload import GpuScene
 VISIBILITY = Pass("raster/visibility.vert.glsl", "raster/visibility.frag.glsl")
 HITS = Pass("raster/hits.comp.glsl")
 CAMERA = Pass("raster/camera.comp.glsl")
+BEYOND = Pass("raster/beyond.comp.glsl")
 
 MOST = 1024  # samples that get numbers of a pixel's own; past them it goes on with its neighbours'
 
@@ -112,7 +113,7 @@ def look(device: Device, gpu_scene: GpuScene, view: View, targets: Targets, sett
     clip_from_world = _clip_from_world(gpu_scene, view, settings, sample)
     is_drawn = tracer is None or not can_trace(gpu_scene, tracer)
     if is_drawn:
-        _draw(device, gpu_scene, targets, clip_from_world, settings, sample)
+        _draw(device, gpu_scene, targets, clip_from_world, settings, sample, sees_trees=tracer is not None)
     return Eye(view, np.linalg.inv(clip_from_world), tiles, sample, is_drawn)
 
 
@@ -125,7 +126,8 @@ def raster(device: Device, gpu_scene: GpuScene, eye: Eye, targets: Targets, trac
         device.dispatch(HITS, part.n, **gpu_scene.geometry, **common, u_visibility=targets.visibility)
     else:
         assert tracer is not None
-        device.dispatch(CAMERA, part.n, tracer.constants(), **tracer.resources(), **common, u_depth=eye.rays[2])
+        device.dispatch(CAMERA, part.n, tracer.constants(), **{**tracer.resources(), "u_sees_trees": True}, **common,
+                        u_depth=eye.rays[2])
 
 
 def can_trace(gpu_scene: GpuScene, tracer: Tracer) -> bool:
@@ -148,11 +150,12 @@ def _clip_from_world(gpu_scene: GpuScene, view: View, settings: RenderSettings, 
 
 
 def _draw(device: Device, gpu_scene: GpuScene, targets: Targets, clip_from_world: np.ndarray,
-          settings: RenderSettings, sample: int) -> None:
+          settings: RenderSettings, sample: int, sees_trees: bool) -> None:
     """Fill `targets` by drawing all triangles."""
     targets.framebuffer.clear()
     calls = (DrawCall(3 * part.n_triangles, part.n_instances,
                       {"u_first_instance": part.first_instance, "u_first_triangle": part.first_triangle})
              for part in gpu_scene.placing.draws)
-    device.draw(VISIBILITY, targets.framebuffer, calls, **{**gpu_scene.geometry, **gpu_scene.opacity},
-                u_clip_from_world=clip_from_world, u_sample=sample, u_seed=settings.seed)
+    read = {**gpu_scene.geometry, **gpu_scene.opacity, "u_sees_trees": sees_trees}
+    device.draw(VISIBILITY, targets.framebuffer, calls, **read, u_clip_from_world=clip_from_world, u_sample=sample,
+                u_seed=settings.seed)

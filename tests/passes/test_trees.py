@@ -72,3 +72,24 @@ def test_what_a_tree_cannot_say_is_told_by_material_and_node(session):
     graph = Graph((Node("ShaderNodeOfNobody", name="Strange"),), Link(0, "BSDF"))
     (told,) = [s for s in film_of(session, glowing(graph), **OPEN).stats["limits"] if "Strange" in s]
     assert told.startswith("Material 'Tree': node 'Strange'")
+
+
+def half_clear(color: tuple[float, ...] = (1, 1, 1)) -> Graph:
+    """As much of a Transparent BSDF as of an Emission of radiance 1."""
+    nodes = (emission((1, 1, 1)).nodes[0], Node("ShaderNodeBsdfTransparent", inputs={"Color": (*color, 1.0)}),
+             Node("ShaderNodeMixShader", inputs={"Fac": 0.5, "Shader": Link(0, "Emission"),
+                                                 "Shader_001": Link(1, "BSDF")}))
+    return Graph(nodes, Link(2, "Shader"))
+
+
+def test_light_behind_what_lets_it_pass_is_seen(session):
+    """Three panes that send out 1/2 and let 1/2 pass, one before the other, before a floor of radiance 8: 1/2 + 1/4 +
+    1/8 + 1. By chance, so the mean over all pixels is within four deviations of one sample's spread."""
+    pane = Material("Pane", (0, 0, 0), specular_level=0, graph=half_clear(), is_exact=False)
+    panes = [scenes.Thing(scenes.quad(f"Pane {z}", (-3, -3, z), (6, 0, 0), (0, 6, 0)), pane) for z in (1, 2, 3)]
+    floor = Material("Floor", (0, 0, 0), specular_level=0, emission=(8, 8, 8))
+    scene = scenes.scene(scenes.Thing(scenes.quad("Floor", (-9, -9, 0), (18, 0, 0), (0, 18, 0)), floor), *panes,
+                         camera=Camera("Camera", scenes.look((0, 0, 5), up=(0, 1, 0)), (16, 16), lens=80))
+    film = film_of(session, scene, **{**OPEN, "samples": 32})
+    seen = film.planes["Combined"][..., :3]
+    assert abs(seen.mean() - 1.875) < 4 * 2.5 / np.sqrt(32 * 256)

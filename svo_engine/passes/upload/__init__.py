@@ -113,7 +113,7 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
     placing = make("placing", place, shapes, scene.instances)
     surfaces = make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images, trees)
-    table = make("albedo", albedo, needs.principled, n_kept=2)
+    table = make("albedo", albedo, needs.principled or needs.trees, n_kept=2)
     asked = trees.compiled.attributes if trees.passes else None
     shading = make("shading", upload_shading, placing, scene.meshes, scene.instances, asked)
     looks = make("looks", bake, placing, surfaces, trees, table, shading, scene.camera if trees.want_view else None)

@@ -25,7 +25,7 @@ class Cutouts:
 
 def opacity_of(placing: Placing, looks: Looks, cutouts: Cutouts) -> Resources:
     """What bind/opacity.glsl reads: all that rays know of materials."""
-    return {**placing.instances, **looks.opacity, "Cutouts": cutouts.flags}
+    return {**placing.instances, **looks.opacity, "Cutouts": cutouts.flags, "u_sees_trees": False}
 
 
 def mark_cutouts(device: Device, placing: Placing, looks: Looks, skips: bool) -> Cutouts:
