@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from . import colonnade, cornell, emissive_only, glass, glossy_steps, outdoor_world, two_rooms
+from . import colonnade, cornell, emissive_only, glass, glossy_steps, outdoor_world, shader_balls, two_rooms
 
 SCENES: dict[str, Callable[[], None]] = {
     "cornell_suzanne_point": cornell.with_point_lamp,
@@ -16,4 +16,5 @@ SCENES: dict[str, Callable[[], None]] = {
     "glass": glass.build,
     "emissive_only": emissive_only.build,
     "outdoor_world": outdoor_world.build,
+    "shader_balls": shader_balls.build,
 }

@@ -48,12 +48,16 @@ def kinds_of_light(scene) -> set[str]:
 
 
 def emits(material) -> bool:
-    inputs = material.node_tree.nodes["Principled BSDF"].inputs
-    return max(inputs["Emission Color"].default_value[:3]) * inputs["Emission Strength"].default_value > 0
+    nodes = material.node_tree.nodes
+    shown = [node.inputs for node in nodes if node.bl_idname == "ShaderNodeBsdfPrincipled"]
+    return any(node.bl_idname == "ShaderNodeEmission" for node in nodes) or any(
+        max(inputs["Emission Color"].default_value[:3]) * inputs["Emission Strength"].default_value > 0
+        for inputs in shown)
 
 
 def contents(path: Path) -> dict[str, tuple[np.ndarray, ...]]:
-    """Object name -> its matrix, its mesh's vertices, corners and the materials of its faces, the power of its lamp."""
+    """Object name -> its matrix, its mesh's vertices, corners and the materials of its faces, the colours of its
+    materials, the power of its lamp."""
     found = {}
     open_scene(path)
     for thing in bpy.data.objects:
@@ -62,8 +66,7 @@ def contents(path: Path) -> dict[str, tuple[np.ndarray, ...]]:
             mesh = thing.data
             parts += [read(mesh.vertices, "co", 3, "f4"), read(mesh.loops, "vertex_index", 1, "i4"),
                       read(mesh.polygons, "material_index", 1, "i4")]
-            parts += [np.array(s.material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value)
-                      for s in thing.material_slots]
+            parts += [colors(slot.material) for slot in thing.material_slots]
         if thing.type == "LIGHT":
             parts.append(np.array([thing.data.energy]))
         found[thing.name] = tuple(parts)
@@ -71,6 +74,12 @@ def contents(path: Path) -> dict[str, tuple[np.ndarray, ...]]:
         if image.packed_file:
             found[f"image {image.name}"] = (np.array(image.pixels[:]),)
     return found
+
+
+def colors(material) -> np.ndarray:
+    """Those of all nodes' inputs called so, in the nodes' order."""
+    named = (node.inputs.get(name) for node in material.node_tree.nodes for name in ("Base Color", "Color"))
+    return np.array([tuple(socket.default_value) for socket in named if socket])
 
 
 def read(items, name: str, width: int, dtype: str) -> np.ndarray:

@@ -30,6 +30,7 @@ def main() -> int:
     """Measure what is asked for, or all that is not known, and write the page."""
     parser = argparse.ArgumentParser("tools.nodes", description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--again", default="", metavar="GLOB", help="kinds to measure anew, as '*Noise*'; '*': all")
+    parser.add_argument("--only", default="", metavar="GLOB", help="only these kinds, anew, and no page")
     parser.add_argument("--batch", type=int, default=36, metavar="N", help="cards in a picture")
     parser.add_argument("--samples", type=int, default=64, metavar="N", help="of Cycles and of us, for shaders")
     options = parser.parse_args()
@@ -39,6 +40,8 @@ def main() -> int:
     known: Results = json.loads(KEPT.read_text()) if KEPT.exists() else {}
     found = list(modes.all_modes(fresh_nodes()))
     todo = [m for m in found if m.key not in known or fnmatch(m.kind, options.again)]
+    if options.only:
+        todo = [m for m in found if fnmatch(m.kind, options.only)]
     print(f"{len(found)} modes, {len(todo)} to measure", flush=True)
     session = Session()
     for is_shader in (False, True):
@@ -47,6 +50,8 @@ def main() -> int:
             known.update(_measured(session, part[i:i + options.batch], options.samples if is_shader else 1))
             KEPT.parent.mkdir(exist_ok=True)
             KEPT.write_text(json.dumps(known, indent=1))
+    if options.only:
+        return 0
     PAGE.write_text(page(found, known, session.device_info()["renderer"]), encoding="utf-8")
     print(PAGE.relative_to(ROOT))
     return 0
