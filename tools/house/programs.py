@@ -21,6 +21,7 @@ from .shaders import ENTRY_SUFFIXES
 TRACE = "bind/trace.glsl"
 MATERIALS = ("bind/materials.glsl", "bind/material_rows.glsl", "bind/principled.glsl", "nodes/closures.glsl",
              "nodes/tree.glsl")
+NODE_TREE = "nodes/tree.glsl"  # stands for a compiled tree
 MOST_BLOCKS = 16  # storage blocks that NVIDIA's cards have in a shader
 VARIANTS = "svo_engine/passes/variants.py"
 GENERATED = "lib/layouts.glsl"  # its constants are the host's too, but are never set
@@ -34,7 +35,17 @@ def breaches(root: Path) -> list[str]:
     for path in tree.files(root / "shaders", *ENTRY_SUFFIXES):
         source = glsl.compose(path.relative_to(root / "shaders").as_posix(), root=root / "shaders")
         found += [tree.breach(root, path, 1, sentence) for sentence in of_program(source)]
+    if (root / "shaders" / NODE_TREE).exists():
+        found += [f"all of shaders/nodes: {sentence}" for sentence in of_program(with_all_nodes(root / "shaders"))]
     return found + variant_breaches(root)
+
+
+def with_all_nodes(shaders: Path) -> glsl.Source:
+    """The program of a node tree that calls all functions of shaders/nodes."""
+    names = [path.relative_to(shaders).as_posix() for path in tree.files(shaders / "nodes", ".glsl")]
+    includes = "".join(f'#include "{name}"\n' for name in names if name != NODE_TREE)
+    text = f"{includes}\nvoid surface(Geo g, inout Closures c)\n{{\n}}\n"
+    return glsl.compose("evaluate/tree.comp.glsl", root=shaders, texts={NODE_TREE: text})
 
 
 def of_program(source: glsl.Source) -> Iterator[str]:
