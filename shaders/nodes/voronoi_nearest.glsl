@@ -42,8 +42,10 @@ CellsSeen nearest_cell(Cells c, vec4 p, bool second)
         }
         around = next_cell(around, c.n, 1);
     }
-    best = cell + (second ? runner_up : best);
-    return CellsSeen(second ? finite(less) : cell_length(c, finite(least)), cell_color(c.n, best), vec4(best) + cell_point(c, best));
+    best = second ? runner_up : best;
+    float d = second ? finite(less) : cell_length(c, finite(least));
+    // In this order, as Cycles: white noise of a place is another one if a last bit is
+    return CellsSeen(d, cell_color(c.n, cell + best), (vec4(best) + cell_point(c, cell + best)) + corner);
 }
 
 // A smooth minimum over the cells in order. smoothness: half of what is at most blended, above 0.
@@ -96,7 +98,7 @@ Voronoi voronoi_nearest(int n, int metric, int feature, bool normalizes, vec4 p,
         sum.distance /= whole * cell_reach(c) * (feature == NEAREST_SECOND ? 2.0 : 1.0);
         sum.color /= whole;
     }
-    vec4 place = scale != 0.0 ? sum.place / scale : vec4(0.0);
+    vec4 place = scale != 0.0 ? sum.place * (1.0 / scale) : vec4(0.0);
     place = n == 1 ? place.yzwx : place;
     return Voronoi(finite(sum.distance), finite_3(sum.color), finite_3(place.xyz), finite(place.w));
 }

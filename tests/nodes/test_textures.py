@@ -40,6 +40,16 @@ def test_as_cycles(session, family):
     assert {name: error for name, error in worst.items() if not error <= 1e-3} == {}
 
 
+def test_places_and_colours_of_cells_are_those_of_cycles_to_the_bit(session):
+    """White noise is often drawn of them. Other devices divide less exactly."""
+    pytest.importorskip("bpy", exc_type=ImportError)
+    if "llvmpipe" not in session.device_info()["renderer"]:
+        pytest.skip("no software renderer")
+    cases = [Case(f"{T}Voronoi", ("Position", "Color"), {"feature": f}, {"Scale": 1.3}) for f in ("F1", "F2")]
+    theirs, nodes = by_cycles(cases)
+    assert all(np.array_equal(a, b) for a, b in zip(seen(session, nodes, cases), theirs, strict=True))
+
+
 def plain(kind, inputs=(), **settings):
     return Node(f"{T}{kind}", settings, dict(inputs))
 

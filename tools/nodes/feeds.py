@@ -44,6 +44,7 @@ VALUES: dict[tuple[str, str], Any] = {
     ("ShaderNodeNormalMap", "Strength"): 0.7, ("ShaderNodeSqueeze", "Width"): 2.0,
 }
 TEXTURES = "ShaderNodeTex"
+STEPPED = {"ShaderNodeTexWhiteNoise"}  # kinds for which a last bit is another world
 INPUTS_LEFT = ("Tangent", "Coat Normal", "Thickness")
 
 Nodes = Any
@@ -65,6 +66,19 @@ def feed(nodes: Nodes, node: Any) -> None:
             nodes.tree.links.new(color(nodes, number), socket)
         elif socket.type == "VECTOR" and socket.identifier not in ("Normal", *INPUTS_LEFT):
             nodes.tree.links.new(vector(nodes, number), socket)
+    if node.bl_idname in STEPPED:
+        for link in [socket.links[0] for socket in node.inputs if socket.is_linked]:
+            nodes.tree.links.new(_stepped(nodes, link.from_socket), link.to_socket)
+
+
+def _stepped(nodes: Nodes, socket: Any) -> Any:
+    """The same in steps that are powers of two."""
+    kind, step = ("VectorMath", (0.125,) * 3) if socket.type == "VECTOR" else ("Math", 0.125)
+    node = nodes.new(kind)
+    node.operation = "SNAP"
+    nodes.tree.links.new(socket, node.inputs[0])
+    node.inputs[1].default_value = step
+    return node.outputs[0]
 
 
 def _range_of(socket: Any) -> tuple[float, float]:
