@@ -13,7 +13,7 @@ from pathlib import Path
 from svo_engine.gpu import glsl
 
 from . import tree
-from .programs import NODE_TREE, with_all_nodes
+from .programs import TEMPLATE, with_all_nodes
 from .shaders import ENTRY_SUFFIXES
 
 PROGRAM = "glslangValidator"
@@ -31,7 +31,7 @@ def breaches(root: Path) -> list[str]:
     """What the compiler says of the programs under `root`, with the file and line that the author knows."""
     shaders = root / "shaders"
     found = [sentence for paths in programs(shaders) for sentence in of_program(shaders, paths)]
-    if (shaders / NODE_TREE).exists():
+    if (shaders / TEMPLATE).exists():
         found += [source.explain(log) for source, log in _judged([with_all_nodes(shaders)])]
     return list(dict.fromkeys(found))
 

@@ -22,6 +22,7 @@ TRACE = "bind/trace.glsl"
 MATERIALS = ("bind/materials.glsl", "bind/material_rows.glsl", "bind/principled.glsl", "nodes/closures.glsl",
              "nodes/tree.glsl")
 NODE_TREE = "nodes/tree.glsl"  # stands for a compiled tree
+TEMPLATE = "evaluate/tree.comp.glsl"  # of programs that hold one
 MOST_BLOCKS = 16  # storage blocks that NVIDIA's cards have in a shader
 VARIANTS = "svo_engine/passes/variants.py"
 GENERATED = "lib/layouts.glsl"  # its constants are the host's too, but are never set
@@ -35,7 +36,7 @@ def breaches(root: Path) -> list[str]:
     for path in tree.files(root / "shaders", *ENTRY_SUFFIXES):
         source = glsl.compose(path.relative_to(root / "shaders").as_posix(), root=root / "shaders")
         found += [tree.breach(root, path, 1, sentence) for sentence in of_program(source)]
-    if (root / "shaders" / NODE_TREE).exists():
+    if (root / "shaders" / TEMPLATE).exists():
         found += [f"all of shaders/nodes: {sentence}" for sentence in of_program(with_all_nodes(root / "shaders"))]
     return found + variant_breaches(root)
 
@@ -45,7 +46,7 @@ def with_all_nodes(shaders: Path) -> glsl.Source:
     names = [path.relative_to(shaders).as_posix() for path in tree.files(shaders / "nodes", ".glsl")]
     includes = "".join(f'#include "{name}"\n' for name in names if name != NODE_TREE)
     text = f"{includes}\nvoid surface(Geo g, inout Closures c)\n{{\n}}\n"
-    return glsl.compose("evaluate/tree.comp.glsl", root=shaders, texts={NODE_TREE: text})
+    return glsl.compose(TEMPLATE, root=shaders, texts={NODE_TREE: text})
 
 
 def of_program(source: glsl.Source) -> Iterator[str]:
