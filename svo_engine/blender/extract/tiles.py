@@ -97,7 +97,8 @@ def _read_file(image: Any, path: Path) -> Image | None:
 def _read_as(image: Any, other: Any) -> Image | None:
     """The pixels of `other`, which is removed, with the settings of `image`; None if there are none."""
     try:
-        other.colorspace_settings.name = image.colorspace_settings.name
+        # Of an image that Blender itself has not read yet there is none: Cycles takes such values as they are
+        other.colorspace_settings.name = image.colorspace_settings.name or "Non-Color"
         other.alpha_mode = image.alpha_mode
         return read_image(other, lambda _sentence: None) if other.has_data or other.size[0] else None
     finally:
