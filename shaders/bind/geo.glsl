@@ -21,7 +21,7 @@ struct Geo {
     uint rays;               // bits RAY_*: which kind of ray has come here
     uint depth;              // bounces behind
     uint first_value;        // of the material
-    vec2 dx;                 // how bary changes to the neighbouring pixel
+    vec2 dx;                 // how bary changes by the width of a pixel, in two directions at right angles
     vec2 dy;
 };
 
@@ -53,21 +53,28 @@ vec2 bary_of(vec3 v, vec3 ab, vec3 ac)
     return det > 0.0 ? vec2(bb * va - m * vb, aa * vb - m * va) / det : vec2(0.0);
 }
 
+// Two directions that with the unit vector n are orthonormal, as Cycles chooses them: differences are taken along these.
+mat2x3 across(vec3 n)
+{
+    vec3 x = n.x != n.y || n.x != n.z ? vec3(n.z - n.y, n.x - n.z, n.y - n.x) : vec3(n.z - n.y, n.x + n.z, -n.y - n.x);
+    x = normalize(x);
+    return mat2x3(x, cross(n, x));
+}
+
 // The point `hit` that is seen along -wo.
 Geo geo_at(Seen seen, uint instance, uint triangle, vec2 bary, vec3 wo, float t, uint rays, uint depth, uint first_value)
 {
     vec3 ab = edge(instance, triangle, 1u), ac = edge(instance, triangle, 2u), n = seen.surface.normal_geometric;
-    mat3 frame = frame_of(wo);
-    float width = u_footprint.x + u_footprint.y * t, NoV = max(dot(n, wo), 0.05);
-    vec3 x = frame[0] - wo * (dot(frame[0], n) / NoV), y = frame[1] - wo * (dot(frame[1], n) / NoV);
+    float width = u_footprint.x + u_footprint.y * t;
+    mat2x3 xy = across(n);
     return Geo(instance, triangle, bary, seen.surface.position + u_centre, seen.surface.normal, n, wo, seen.is_back, t, rays,
-               depth, first_value, width * bary_of(x, ab, ac), width * bary_of(y, ab, ac));
+               depth, first_value, width * bary_of(xy[0], ab, ac), width * bary_of(xy[1], ab, ac));
 }
 
-// The point that the neighbouring pixel sees, along x (axis 0) or y of the picture.
-Geo shifted(Geo g, int axis)
+// The point that is seen `width` pixels away, along x (axis 0) or y of the picture.
+Geo shifted(Geo g, int axis, float width)
 {
-    vec2 by = axis == 0 ? g.dx : g.dy;
+    vec2 by = width * (axis == 0 ? g.dx : g.dy);
     g.bary += by;
     g.position += by.x * edge(g.instance, g.triangle, 1u) + by.y * edge(g.instance, g.triangle, 2u);
     return g;

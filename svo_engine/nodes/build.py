@@ -26,7 +26,9 @@ class Built:
         self._tree = Tree(graph, warn)
         self._ends = {name: self._tree.resolve((), link) for name, link in ends.items()}
         self._outputs: dict[Place, Outputs] = {}
-        for place in self._tree.order(list(self._ends.values())):
+        order = self._tree.order(list(self._ends.values()))
+        self._used = self._tree.used(order, list(self._ends.values()))
+        for place in order:
             self._outputs[place] = self._make(place)
 
     def shader(self, end: str) -> Closure | None:
@@ -46,7 +48,8 @@ class Built:
         function = kinds().get(node.kind)
         if function is None:
             return self._guess(place, node)
-        return function(Reader(node, partial(self._feed, place), partial(self._is_linked, place), self._warn))
+        return function(Reader(node, partial(self._feed, place), partial(self._is_linked, place),
+                               lambda output: (place, output) in self._used, self._warn))
 
     def _guess(self, place: Place, node: Node) -> Outputs:
         """Of a kind that nobody knows: what feeds its first linked input, for every output."""

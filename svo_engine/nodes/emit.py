@@ -84,12 +84,13 @@ class Writer:
         """Lines that compute what the roots need, each expression once, and a function from one to its code."""
         lines: list[str] = []
         codes: dict[int, str] = {}
-        moved: dict[int, str] = {}
+        moved: dict[tuple[int, float], str] = {}
         for expr in in_order(roots):
             codes[id(expr)] = self._code(expr, codes, lines, moved)
         return lines, lambda expr: codes[id(expr)]
 
-    def _code(self, expr: Expr, codes: dict[int, str], lines: list[str], moved: dict[int, str]) -> str:
+    def _code(self, expr: Expr, codes: dict[int, str], lines: list[str],
+              moved: dict[tuple[int, float], str]) -> str:
         if isinstance(expr, Call):
             self.use(expr.signature.file)
             given = [*(["g"] if expr.signature.takes_geo else []), *(codes[id(a)] for a in expr.arguments)]
@@ -100,10 +101,11 @@ class Writer:
         if isinstance(expr, (Literal, Table)):
             return expr.text if isinstance(expr, Literal) else f"{self._place(expr)}u"
         if isinstance(expr, Shifted):
-            if expr.axis not in moved:
-                lines.append(f"Geo v{len(lines)} = shifted(g, {expr.axis});")
-                moved[expr.axis] = f"v{len(lines) - 1}"
-            return f"{self._function_of(expr.of)}({moved[expr.axis]})"
+            by = expr.axis, expr.width
+            if by not in moved:
+                lines.append(f"Geo v{len(lines)} = shifted(g, {expr.axis}, {expr.width!r});")
+                moved[by] = f"v{len(lines) - 1}"
+            return f"{self._function_of(expr.of)}({moved[by]})"
         assert isinstance(expr, (Constant, Named))
         return _READ[expr.type].format(f"{self._place(expr)}u")
 

@@ -91,10 +91,11 @@ class Meant(Expr):
 
 @dataclass(frozen=True, eq=False)
 class Shifted(Expr):
-    """`of` at the point that the neighbouring pixel sees, along x (axis 0) or y (1) of the picture."""
+    """`of` at the point that is seen `width` pixels away, along x (axis 0) or y (1) of the picture."""
 
     of: Expr
     axis: int
+    width: float
 
 
 def call(name: str, *arguments: Expr) -> Expr:

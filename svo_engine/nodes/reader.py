@@ -16,13 +16,14 @@ Fed = Expr | Closure | None
 class Reader:
     """One node. What feeds it has been made already.
 
-    feed  what feeds an input: an Expr, a Closure, or the constant
+    feed     what feeds an input: an Expr, a Closure, or the constant
+    is_used  whether anything that counts is fed by an output
     """
 
     def __init__(self, node: Node, feed: Callable[[str], Fed | Plain], is_linked: Callable[[str], bool],
-                 warn: Callable[[str], object]) -> None:
+                 is_used: Callable[[str], bool], warn: Callable[[str], object]) -> None:
         self.node = node
-        self.is_linked = is_linked
+        self.is_linked, self.is_used = is_linked, is_used
         self._feed = feed
         self._warn = warn
 
@@ -87,9 +88,9 @@ class Reader:
         """A uint: the number of the attribute of that name, for `attribute_at`."""
         return Named("uint", "attribute", name)
 
-    def shifted(self, expr: Expr, axis: int) -> Expr:
-        """The same at the point that the neighbouring pixel sees, along x (0) or y (1) of the picture."""
-        return expr if isinstance(expr, Constant) else Shifted(expr.type, expr, axis, role=expr.role)
+    def shifted(self, expr: Expr, axis: int, width: float = 1.0) -> Expr:
+        """The same at the point that is seen `width` pixels away, along x (0) or y (1) of the picture."""
+        return expr if isinstance(expr, Constant) else Shifted(expr.type, expr, axis, width, role=expr.role)
 
     def warn(self, sentence: str) -> None:
         """Tell the user, once, what is not as in Blender, and what stands in."""

@@ -91,6 +91,11 @@ class Tree:
                     waiting.pop()
         return list(done)
 
+    def used(self, places: list[Place], roots: list[Source]) -> set[tuple[Place, str]]:
+        """The outputs that feed any of these nodes, or that are roots."""
+        sources = [self.source(place, identifier) for place in places for identifier in self.node(place).inputs]
+        return {(source.place, source.output) for source in (*sources, *roots) if source.place}
+
     def _before(self, place: Place) -> list[Place]:
         sources = (self.source(place, identifier) for identifier in self.node(place).inputs)
         return [source.place for source in sources if source.place]
