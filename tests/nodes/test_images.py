@@ -46,6 +46,12 @@ def both(node_of):
     return maker
 
 
+def unlinked(nodes):
+    node = nodes.new("TexImage")
+    node.image = picture()
+    return node
+
+
 GIVEN = {
     **{f"{i} {e}": texture(interpolation=i, extension=e) for i, e in (
         ("Linear", "REPEAT"), ("Linear", "EXTEND"), ("Linear", "CLIP"), ("Linear", "MIRROR"), ("Closest", "CLIP"),
@@ -58,16 +64,11 @@ GIVEN = {
     "packed": both(texture(made=lambda: picture("Channels", alpha_mode="CHANNEL_PACKED"))),
     "data": texture(made=lambda: picture("Data", space="Non-Color")),
     "missing": texture(made=None), "missing alpha": texture("Alpha", made=None),
-    "unlinked": lambda nodes: unlinked(nodes),
+    "unlinked": unlinked,
     "equirectangular": texture(kind="TexEnvironment", coordinates="Normal"),
-    "mirror ball": texture(kind="TexEnvironment", coordinates="Normal", projection="MIRROR_BALL", interpolation="Cubic"),
+    "mirror ball": texture(kind="TexEnvironment", coordinates="Normal", projection="MIRROR_BALL",
+                           interpolation="Cubic"),
 }
-
-
-def unlinked(nodes):
-    node = nodes.new("TexImage")
-    node.image = picture()
-    return node
 
 
 def test_images(session):

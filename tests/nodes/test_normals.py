@@ -59,7 +59,8 @@ GIVEN = {
     **{space.lower(): normal_map(space, 0.6) for space in ("OBJECT", "WORLD", "BLENDER_OBJECT", "BLENDER_WORLD")},
     "bump": bump(waves, Distance=0.1), "inverted": bump(waves, invert=True, Distance=0.05, Strength=0.5),
     "of an image": bump(texture, Distance=0.1),
-    "on a map": lambda nodes: nodes.new("Bump", Height=waves(nodes), Distance=0.05, Normal=normal_map("TANGENT")(nodes)),
+    "on a map": lambda nodes: nodes.new("Bump", Height=waves(nodes), Distance=0.05,
+                                        Normal=normal_map("TANGENT")(nodes)),
     "wide": bump(waves, Distance=0.1, Filter_Width=1.0), "nothing linked": lambda nodes: nodes.new("Bump"),
     "a step": bump(lambda nodes: nodes.new("Fresnel"), Distance=0.2),
 }
