@@ -69,7 +69,8 @@ def points() -> tuple[np.ndarray, np.ndarray]:
 def text_of(node: Node, outputs: Sequence[str], warn: Any = lambda sentence: None) -> tuple[str, np.ndarray]:
     """The function `shown(Geo g)` that gives the outputs of a node at a point, and its values (n,) u4."""
     linked = {"Vector": _given("vec3", "at_of"), "W": _given("float", "w_of")}
-    reader = Reader(node, lambda name: linked.get(name, node.inputs.get(name)), linked.__contains__, warn)
+    reader = Reader(node, lambda name: linked.get(name, node.inputs.get(name)), linked.__contains__,
+                    outputs.__contains__, warn)
     made = kinds()[node.kind](reader)
     shown = [converted(made[name], "vec3") for name in outputs]  # type: ignore[arg-type]
     writer = Writer()
