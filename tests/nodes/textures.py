@@ -59,6 +59,7 @@ def noises() -> Iterator[Case]:
         for detail in (0.0, 15.0):
             yield Case(f"{T}Noise", ("Fac",), {"noise_dimensions": d}, {"Detail": detail})
         yield Case(f"{T}Noise", ("Fac",), {"noise_dimensions": d}, {"Scale": 1e6, "Detail": 0.0})
+    yield Case(f"{T}Noise", ("Fac", "Color"))
     for kind in ("POINT", "TEXTURE", "VECTOR", "NORMAL"):
         yield Case(f"{T}Noise", ("Fac",), {**MAPPING, "texture_mapping.vector_type": kind}, {"Scale": 1.3})
     axes = {f"texture_mapping.mapping_{a}": b for a, b in zip("xyz", ("Z", "NONE", "X"), strict=True)}

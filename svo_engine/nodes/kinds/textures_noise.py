@@ -31,7 +31,9 @@ def noise(n: Reader) -> Outputs:
     type_ = n.setting("noise_type", "FBM")
     flags = [n.literal(bool(n.setting("normalize", True)))] if type_ == "FBM" else []
     name, given = _fractal(n, type_, n_axes, point, octaves, flags)
-    return {"Fac": n.call(name, *given), "Color": n.call(f"{name}_color", *given)}
+    color = n.call(f"{name}_color", *given)
+    value = n.call("first_of", color) if n.is_used("Fac") and n.is_used("Color") else n.call(name, *given)
+    return {"Fac": value, "Color": color}
 
 
 @kind("ShaderNodeTexMusgrave")
