@@ -2,11 +2,12 @@
 // Purpose: the nodes that adjust one colour.
 
 #include "nodes/color_models.glsl"
+#include "nodes/convert.glsl"
 #include "nodes/math_functions.glsl"
 
 float luminance_of(vec3 c)
 {
-    return bounded(dot(c, vec3(0.2126, 0.7152, 0.0722)));
+    return bounded(dot(c, LUMINANCE));
 }
 
 vec3 bright_contrast(vec3 c, float brightness, float contrast)

@@ -3,10 +3,11 @@
 
 #include "nodes/bounded.glsl"
 
-// Rec. 709 luminance.
+const vec3 LUMINANCE = vec3(0.2126391, 0.7151691, 0.0721928);  // of Rec. 709; digits as in Cycles, white is 1.000001
+
 float number_of_color(vec3 c)
 {
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
+    return bounded(dot(c, LUMINANCE));
 }
 
 float number_of_vector(vec3 v)

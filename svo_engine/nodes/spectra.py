@@ -26,8 +26,8 @@ _MATCHING_TEXT = """
 """
 _MATCHING = np.array(_MATCHING_TEXT.split(), "f8").reshape(-1, 3)
 _FIRST, _STEP = 380.0, 5.0  # nm
-_RGB_OF_XYZ = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560],
-                        [0.0556434, -0.2040259, 1.0572252]])
+_RGB_OF_XYZ = np.array([[3.2409699, -1.5373832, -0.4986108], [-0.9692436, 1.8759675, 0.0415551],
+                        [0.0556301, -0.2039770, 1.0569715]])
 _BRIGHTEST = 2.52  # Cycles' measure of wavelengths, which leaves their colours below 1
 
 BLACKBODY_RANGE = 800.0, 12000.0  # K

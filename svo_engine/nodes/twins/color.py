@@ -63,7 +63,7 @@ def rgb_of_hsl(hsl: Any) -> Any:
 
 @twin_f4
 def luminance_of(c: Any) -> Any:
-    return bounded((c * np.array([0.2126, 0.7152, 0.0722], "f4")).sum())
+    return bounded((c * np.array([0.2126391, 0.7151691, 0.0721928], "f4")).sum())
 
 
 @twin_f4

@@ -9,7 +9,7 @@ from .registry import twin
 @twin
 def number_of_color(c: tuple[float, ...]) -> float:
     """As shaders/nodes/convert.glsl."""
-    return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]
+    return 0.2126391 * c[0] + 0.7151691 * c[1] + 0.0721928 * c[2]
 
 
 @twin
