@@ -30,12 +30,12 @@ vec3 rotated_by_angle(vec3 v, vec3 center, vec3 axis, float angle)
     return about == vec3(0.0) ? v : bounded3(turned + center);
 }
 
-vec3 rotated(vec3 v, vec3 center, vec3 x, vec3 y, vec3 z)
+vec3 rotated_by_columns(vec3 v, vec3 center, vec3 x, vec3 y, vec3 z)
 {
     return bounded3(mat3(x, y, z) * (v - center) + center);
 }
 
-vec3 rotated_back(vec3 v, vec3 center, vec3 x, vec3 y, vec3 z)
+vec3 rotated_back_by_columns(vec3 v, vec3 center, vec3 x, vec3 y, vec3 z)
 {
     return bounded3((v - center) * mat3(x, y, z) + center);
 }

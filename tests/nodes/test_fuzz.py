@@ -21,13 +21,11 @@ USUAL = (0.0, 1.0, 0.5, -0.3, 2.5, 10.0)
 
 def value_kinds() -> list[str]:
     """Kinds that this Blender has, and that give no shader."""
-    tree = bpy.data.materials.new("Kinds")
-    nodes = build.tree_of(tree).nodes
-    found = []
-    for kind in sorted(kinds()):
-        if hasattr(bpy.types, kind) and not any(s.type == "SHADER" for s in nodes.new(kind).outputs):
-            found.append(kind.removeprefix("ShaderNode"))
-    bpy.data.materials.remove(tree)
+    material = bpy.data.materials.new("Kinds")
+    nodes = build.tree_of(material).nodes
+    made = [nodes.new(kind) for kind in sorted(kinds()) if hasattr(bpy.types, kind)]
+    found = [n.bl_idname.removeprefix("ShaderNode") for n in made if all(s.type != "SHADER" for s in n.outputs)]
+    bpy.data.materials.remove(material)
     return found
 
 

@@ -28,7 +28,8 @@ def vector_rotate(n: Reader) -> Outputs:
     v, center = n.vector("Vector"), n.vector("Center")
     if way == "EULER_XYZ":
         columns = _euler(n, n.vector("Rotation"))
-        return {"Vector": as_vector(n.call("rotated_back" if invert else "rotated", v, center, *columns))}
+        function = "rotated_back_by_columns" if invert else "rotated_by_columns"
+        return {"Vector": as_vector(n.call(function, v, center, *columns))}
     axis = n.literal(_AXES[way]) if way in _AXES else n.vector("Axis")
     angle = n.number("Angle")
     if invert:
@@ -52,3 +53,15 @@ def normal(n: Reader) -> Outputs:
 def vector_curves(n: Reader) -> Outputs:
     """A curve for each part of a vector."""
     return {"Vector": as_vector(curved(n, n.number("Fac", 1.0), n.vector("Vector"), 3))}
+
+
+@kind("ShaderNodeVectorTransform")
+def vector_transform(n: Reader) -> Outputs:
+    """From one space to another, by way of the world."""
+    what = n.setting("vector_type", "VECTOR").lower()
+    start, end = (n.setting(f"convert_{way}", "WORLD").lower() for way in ("from", "to"))
+    made = n.vector("Vector")
+    if start != end:
+        made = made if start == "world" else n.call(f"{what}_world_from_{start}", made)
+        made = made if end == "world" else n.call(f"{what}_{end}_from_world", made)
+    return {"Vector": as_vector(made)}

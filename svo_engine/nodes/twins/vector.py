@@ -222,12 +222,12 @@ def rotated_by_angle(v: Any, center: Any, axis: Any, angle: Any) -> Any:
 
 
 @twin_f4
-def rotated(v: Any, center: Any, x: Any, y: Any, z: Any) -> Any:
+def rotated_by_columns(v: Any, center: Any, x: Any, y: Any, z: Any) -> Any:
     return bounded(np.stack([x, y, z], 1) @ (v - center) + center)
 
 
 @twin_f4
-def rotated_back(v: Any, center: Any, x: Any, y: Any, z: Any) -> Any:
+def rotated_back_by_columns(v: Any, center: Any, x: Any, y: Any, z: Any) -> Any:
     return bounded(np.stack([x, y, z]) @ (v - center) + center)
 
 
