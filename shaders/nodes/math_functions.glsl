@@ -4,7 +4,7 @@
 #include "nodes/bounded.glsl"
 
 // The angle within half a turn of 0: far from there, sines of graphics cards are wrong.
-float turned_back(float x)
+float angle_near_zero(float x)
 {
     float turns = round(x * 0.15915494);
     precise float near = (x - turns * 6.28125) - turns * 0.0019353072;
@@ -47,17 +47,17 @@ float math_exponent(float a)
 
 float math_sine(float a)
 {
-    return sin(turned_back(a));
+    return sin(angle_near_zero(a));
 }
 
 float math_cosine(float a)
 {
-    return cos(turned_back(a));
+    return cos(angle_near_zero(a));
 }
 
 float math_tangent(float a)
 {
-    float x = turned_back(a);
+    float x = angle_near_zero(a);
     return divided(sin(x), cos(x));
 }
 
