@@ -28,6 +28,7 @@ from .passes.gather import gather_cones, gather_rays
 from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
 from .passes.lights.glow import make_glow
+from .passes.lines import draw_lines
 from .passes.octree import build_octree
 from .passes.parts import Part, Parts, make_parts
 from .passes.planes import planes_for
@@ -146,6 +147,8 @@ def _in_parts(device: Device, gpu_scene: GpuScene, targets: Targets, tracer: Tra
             evaluate(device, gpu_scene, eye, parts, part, may_pass=tracer is not None)
             if tracer:
                 see_through(device, gpu_scene, eye, tracer, parts, part)
+            if tracer and settings.lines:
+                draw_lines(device, eye, tracer, parts, part, settings.lines)
             for end in ends:
                 end(eye, part)
 

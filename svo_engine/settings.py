@@ -62,10 +62,24 @@ PASSES = {"Depth": "Z", "Position": "XYZ", "Normal": "XYZ",
 
 
 @dataclass(frozen=True)
+class Lines:
+    """Outlines. thickness: pixels; color: scene-linear; crease_angle: radians between two faces whose edge is drawn."""
+
+    thickness: float = 1.5
+    color: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    silhouettes: bool = True
+    creases: bool = True
+    crease_angle: float = 0.7853981633974483
+    materials: bool = True
+    objects: bool = True
+
+
+@dataclass(frozen=True)
 class RenderSettings:
     """One render's settings. Angles in radians, lengths in voxels where the label says so.
 
     passes  those of PASSES that are wanted; Blender asks for them by view layer, so that no panel is made of this
+    lines   outlines, likewise of the view layer; None for none
     """
 
     method: str = _setting("rays", "Method", "How indirect light is gathered", "Sampling", choices=METHODS)
@@ -143,6 +157,7 @@ class RenderSettings:
                                    "same",
                                    "Debug")
     passes: tuple[str, ...] = ()
+    lines: Lines | None = None
 
     def for_viewport(self) -> RenderSettings:
         """The same with the viewport's own samples and denoiser, and no time limit."""

@@ -18,7 +18,7 @@ from . import present, session, told
 from .extract import border, extract
 from .extract.camera import read_camera
 from .properties import settings_of
-from .render_passes import passes_of
+from .render_passes import lines_of, passes_of
 from .sync import Sync
 from .sync.changes import Uid, uid_of
 
@@ -47,7 +47,7 @@ def extract_frame(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph
     start, settings = time.perf_counter(), _PREVIEW_SETTINGS
     if not engine.is_preview:
         passes = passes_of(depsgraph.scene, depsgraph.view_layer)
-        settings = replace(settings_of(depsgraph.scene), passes=passes)
+        settings = replace(settings_of(depsgraph.scene), passes=passes, lines=lines_of(depsgraph.view_layer))
     scene = extract(depsgraph) if engine.is_preview else _sync_of(depsgraph.scene).read(depsgraph)
     extract_ms = (time.perf_counter() - start) * 1e3
     return Frame(scene, settings, border(depsgraph.scene), depsgraph.view_layer.name, extract_ms)

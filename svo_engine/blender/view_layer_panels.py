@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panels of the view layer tab: which render passes there are to be, as Cycles shows its own."""
+"""The panels of the view layer tab: which render passes there are to be, as Cycles shows its own; outlines."""
 
 from __future__ import annotations
 
@@ -68,7 +68,28 @@ class SVO_PT_passes_light(_LayerPanel, bpy.types.Panel):
                      ("Other", {"use_pass_emit": "Emission", "use_pass_environment": "Environment"}))
 
 
-_CLASSES = (SVO_PT_passes, SVO_PT_passes_data, SVO_PT_passes_light)
+class SVO_PT_lines(_LayerPanel, bpy.types.Panel):
+    """Outlines."""
+
+    bl_label = "Lines"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw_header(self, context: bpy.types.Context) -> None:
+        """The switch."""
+        self.layout.prop(context.view_layer.svo_lines, "show", text="")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        lines = context.view_layer.svo_lines
+        self.layout.active = lines.show
+        self.columns(lines, ("", {"thickness": "Thickness", "color": "Color"}),
+                     ("Draw", {"silhouettes": "Silhouettes", "objects": "Object Borders",
+                               "materials": "Material Borders", "creases": "Creases"}))
+        angle = self.layout.column()
+        angle.active = lines.creases
+        angle.prop(lines, "crease_angle")
+
+
+_CLASSES = (SVO_PT_passes, SVO_PT_passes_data, SVO_PT_passes_light, SVO_PT_lines)
 
 
 def register() -> None:

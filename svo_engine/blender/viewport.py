@@ -14,6 +14,7 @@ from ..film import Film
 from ..scene.types import Scene
 from . import present, session, told
 from .properties import settings_of
+from .render_passes import lines_of
 from .sync import Sync, keep_picture
 from .viewport_view import Rect, view_of
 from .worker import Job, Worker
@@ -64,7 +65,7 @@ class Viewport:
         self.failure = ""
         scene = depsgraph.scene
         view, rect = view_of(context, scene)
-        settings = settings_of(scene).for_viewport()
+        settings = replace(settings_of(scene).for_viewport(), lines=lines_of(depsgraph.view_layer))
         self._worker.show(Job(shown_scene, view, settings, rect))
         if self._worker.shown is not None:
             job, film = self._worker.shown

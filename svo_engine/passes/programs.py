@@ -24,6 +24,7 @@ from . import (
     evaluate,
     gather,
     light,
+    lines,
     octree,
     path,
     planes,
@@ -37,7 +38,7 @@ from .variants import variant_of
 Variant = tuple[Pass, Mapping[str, bool]]
 
 # The passes that trace exact rays
-_TRACE = (raster.CAMERA, raster.BEYOND, cache.LINK, cache.DIRECT, gather.RAYS, path.STEP)
+_TRACE = (raster.CAMERA, raster.BEYOND, lines.DRAW, cache.LINK, cache.DIRECT, gather.RAYS, path.STEP)
 _EMITTERS = (cache.FOUND, cache.DRAW, gather.FOUND, gather.DRAW)
 
 
@@ -59,7 +60,7 @@ def all_programs(is_software: bool) -> tuple[Variant, ...]:
     """All that any frame could run, most needed first."""
     everything = [
         *_rays(True, True), *_picture(True, False, is_software), *_picture(True, True, is_software),
-        *bake.PASSES, raster.BEYOND,
+        *bake.PASSES, raster.BEYOND, lines.DRAW,
         denoise.COMPOSE, planes.MEAN, adaptive.MEASURE, adaptive.DECIDE, atrous.PREPARE, atrous.ATROUS, *_voxels(),
         light.INJECT, light.MIP, gather.CONES, debug.SURFELS, debug.VOXELS, debug.ATTRIBUTE]
     return _variants(list(dict.fromkeys(everything)), is_software)
@@ -71,6 +72,8 @@ def _variants(used: list[Pass], is_software: bool) -> tuple[Variant, ...]:
 
 def _of_view(needs: Needs, settings: RenderSettings, is_software: bool) -> Iterator[Pass]:
     is_drawn = is_software or needs.alpha
+    if settings.lines and settings.method == "rays":
+        yield lines.DRAW
     if needs.trees:
         yield from (*bake.PASSES, albedo.INTEGRATE)
     if needs.passes and settings.method == "rays":

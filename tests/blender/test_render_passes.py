@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from functools import partial
 from types import SimpleNamespace
 
@@ -12,8 +13,8 @@ import OpenEXR
 import pytest
 
 from svo_engine.blender import view_layer_panels
-from svo_engine.blender.render_passes import SWITCHES, ask_for, blender_name, list_passes, passes_of
-from svo_engine.settings import PASSES
+from svo_engine.blender.render_passes import SWITCHES, ask_for, blender_name, lines_of, list_passes, passes_of
+from svo_engine.settings import PASSES, Lines
 from tests.blender import build
 
 SIZE = 48, 36
@@ -162,6 +163,14 @@ def test_passes_go_to_their_own_layer(scene):
     assert len(passes_of(scene, scene.view_layers[0])) == len(PASSES)
 
 
+def test_lines_are_those_that_the_layer_asks_for(scene):
+    layer = scene.view_layers[0]
+    assert lines_of(layer) is None
+    layer.svo_lines.show, layer.svo_lines.thickness, layer.svo_lines.creases = True, 3.0, False
+    assert lines_of(layer) == Lines(thickness=3.0, creases=False, crease_angle=layer.svo_lines.crease_angle)
+    assert layer.svo_lines.crease_angle == pytest.approx(Lines.crease_angle, rel=1e-6)  # a float of 32 bits
+
+
 def test_every_switch_stands_in_a_panel(scene):
     shown = []
 
@@ -179,4 +188,5 @@ def test_every_switch_stands_in_a_panel(scene):
         drawn = SimpleNamespace(layout=Layout())
         drawn.columns = partial(view_layer_panels._LayerPanel.columns, drawn)
         panel.draw(drawn, context)
-    assert sorted(shown) == sorted(["use_pass_combined", "denoising_data", *SWITCHES.values()])
+    of_lines = [field.name for field in fields(Lines)]
+    assert sorted(shown) == sorted(["use_pass_combined", "denoising_data", *SWITCHES.values(), *of_lines])
