@@ -30,13 +30,16 @@ vec3 normal_map_space(Geo g, vec3 color, float strength, bool is_of_object, bool
     return n == vec3(0.0) ? g.normal : n;
 }
 
-// The normal of a surface that is lifted along `normal`: by h here, by hx and hy `width` pixels away along x and y.
-vec3 bumped_normal(Geo g, float h, float hx, float hy, vec3 normal, float strength, float distance, float width)
+// The change of position by the width of a pixel, in the two directions of g.dx and g.dy.
+mat2x3 footprint(Geo g)
 {
-    if (!has_object(g))
-        return normal;
     vec3 ab = edge(g.instance, g.triangle, 1u), ac = edge(g.instance, g.triangle, 2u);
-    vec3 dx = g.dx.x * ab + g.dx.y * ac, dy = g.dy.x * ab + g.dy.y * ac;
+    return mat2x3(g.dx.x * ab + g.dx.y * ac, g.dy.x * ab + g.dy.y * ac);
+}
+
+// The normal of a surface that is lifted along `normal`: by h here, by hx and hy `width` of the steps dx and dy away.
+vec3 lifted_normal(vec3 dx, vec3 dy, float h, float hx, float hy, vec3 normal, float strength, float distance, float width)
+{
     vec3 rx = cross(dy, normal), ry = cross(normal, dx);
     float det = dot(dx, rx);
     vec3 gradient = ((hx - h) * rx + (hy - h) * ry) * distance;
@@ -48,6 +51,30 @@ vec3 bumped_normal(Geo g, float h, float hx, float hy, vec3 normal, float streng
     float s = max(strength, 0.0);
     n = unit_or_zero(s * normalize(n / largest) + (1.0 - s) * normal);
     return n == vec3(0.0) ? normal : n;
+}
+
+// Heights in metres.
+vec3 bumped_normal(Geo g, float h, float hx, float hy, vec3 normal, float strength, float distance, float width)
+{
+    if (!has_object(g))
+        return normal;
+    mat2x3 d = footprint(g);
+    return lifted_normal(d[0], d[1], h, hx, hy, normal, strength, distance, width);
+}
+
+// The same in object space: heights grow with the object.
+vec3 bumped_normal_of_object(Geo g, float h, float hx, float hy, vec3 normal, float strength, float distance, float width)
+{
+    if (!has_object(g))
+        return normal;
+    mat2x3 d = footprint(g);
+    vec3 dx = direction_to_object(g, d[0]), dy = direction_to_object(g, d[1]), n = normal_to_object(g, normal);
+    return normal_from_object(g, lifted_normal(dx, dy, h, hx, hy, n, strength, distance, width));
+}
+
+float height_along(vec3 by, vec3 normal)
+{
+    return dot(by, normal);
 }
 
 // Along the normal; in the object's space it goes through the object's scale.
@@ -69,6 +96,7 @@ vec3 displaced_in_tangent_space(Geo g, vec3 by, float midlevel, float scale, uin
     vec3 v = (by - midlevel) * scale, n = normal_to_object(g, g.normal);
     Attribute a = attribute_of(g, tangents);
     vec3 t = a.width > 0u ? a.value.xyz : frame_of(n)[0];
+    t -= n * dot(n, t);  // g.normal does not turn where a bump looks beside g, and tangents must not lean out of its plane
     vec3 b = unit_or_zero(cross(n, t)) * (a.width > 0u ? sign(a.value.w) : 1.0);
     return direction_to_world(g, t * v.x + n * v.y + b * v.z);
 }

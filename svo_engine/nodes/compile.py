@@ -16,6 +16,7 @@ from ..scene.graph import Graph
 from ..scene.types import Material
 from .build import Built
 from .closures import leaves
+from .displacement import normal_of
 from .emit import Datum, Writer
 from .traits import Traits, traits_of
 
@@ -103,7 +104,8 @@ def compiled_tree(graph: Graph) -> One:
 
 def _compile(graph: Graph) -> One:
     notes: dict[str, None] = {}
-    found = leaves(Built(graph, {"surface": graph.surface}, notes.setdefault).shader("surface"))
+    built = Built(graph, {"surface": graph.surface, "displacement": graph.displacement}, notes.setdefault)
+    found = leaves(built.shader("surface"))
     writer = Writer()
-    writer.closures(found)
+    writer.closures(found, normal_of(graph, built))
     return One(writer.text(), tuple(writer.data), writer.n_values, traits_of(found), tuple(notes))

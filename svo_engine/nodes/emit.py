@@ -46,20 +46,24 @@ class Writer:
         self._placed: dict[int, int] = {}  # of a datum, by the expression
         self._shifted: dict[int, str] = {}
 
-    def function(self, head: str, roots: Sequence[Expr], end: Any) -> None:
+    def function(self, head: str, roots: Sequence[Expr], end: Any, begin: Sequence[str] = ()) -> None:
         """Add a function whose last lines are end(codes of the roots, as a function of an expression)."""
         lines, code = self._body(roots)
-        text = "\n".join(f"    {line}" for line in [*lines, *end(code)])
+        text = "\n".join(f"    {line}" for line in [*begin, *lines, *end(code)])
         self._functions.append(f"{head}\n{{\n{text}\n}}\n")
 
-    def closures(self, found: Sequence[Weighted]) -> None:
-        """Add `surface`, which fills in the closures of a point."""
+    def closures(self, found: Sequence[Weighted], normal: Expr | None = None) -> None:
+        """Add `surface`, which fills in the closures of a point. normal: what takes the place of its own."""
+        begin = []
+        if normal is not None:
+            self.value("vec3 displaced_normal(Geo g)", normal)
+            begin = ["g.normal = c.normal = displaced_normal(g);"]
         roots = [expr for w in found for expr in (w.weight, *w.leaf.arguments)]
 
         def end(code: Any) -> list[str]:
             return [self._closure(w, code) for w in found]
 
-        self.function("void surface(Geo g, inout Closures c)", roots, end)
+        self.function("void surface(Geo g, inout Closures c)", roots, end, begin)
 
     def value(self, head: str, expr: Expr) -> None:
         """Add a function that returns the expression."""
