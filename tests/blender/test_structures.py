@@ -35,8 +35,13 @@ def text_of(found):
     return compiled_tree(found.graph).text
 
 
-def told(_done):
-    """Blender's editor tells what scripts must tell themselves."""
+def add_stop():
+    node("ValToRGB").color_ramp.elements.new(0.5)
+    bpy.data.materials["Material"].node_tree.update_tag()  # as Blender's editor does
+
+
+def bend():
+    node("RGBCurve").mapping.curves[3].points[1].location = (0.5, 0.7)
     bpy.data.materials["Material"].node_tree.update_tag()
 
 
@@ -50,8 +55,8 @@ VALUES = {
     "factor": lambda: setattr(node("Mix").inputs[0], "default_value", 0.7),
     "ramp": lambda: setattr(node("ValToRGB").color_ramp.elements[0], "position", 0.2),
     "ramp's colour": lambda: setattr(node("ValToRGB").color_ramp.elements[0], "color", (1, 0, 0, 1)),
-    "ramp's stops": lambda: told(node("ValToRGB").color_ramp.elements.new(0.5)),
-    "curve": lambda: told(setattr(node("RGBCurve").mapping.curves[3].points[1], "location", (0.5, 0.7))),
+    "ramp's stops": add_stop,
+    "curve": bend,
     "image": lambda: setattr(node("TexImage"), "image", image(np.full((4, 4, 4), 0.25), "Second")),
     "object": lambda: setattr(bpy.data.objects["Guide"], "location", (1, 2, 3)),
 }
