@@ -144,7 +144,10 @@ class Light:
     spot_blend   SPOT: 0 to 1, soft part of the cone's edge: `smoothstep(0, 1, (cos a - cos h) / (blend (1 - cos h)))`
     soft_falloff POINT, SPOT: not a sphere but a disk of `radius` that faces the point it lights, so that on the axis
                  E = I / (d^2 + radius^2); Blender's default
+    falloff      how the light falls with distance: as in nature, with one power of it less, or not at all; and, with
+                 `smoothing` s [m^2], weaker near the lamp by d^2 / (s + d^2)
     graph        the lamp's nodes, if it uses any
+    is_exact     whether the values say all that the graph does; else its colour multiplies `emitted`
     """
 
     name: str
@@ -160,7 +163,10 @@ class Light:
     spot_blend: float = 0.0
     casts_shadow: bool = True
     soft_falloff: bool = False
+    falloff: Literal["QUADRATIC", "LINEAR", "CONSTANT"] = "QUADRATIC"
+    smoothing: float = 0.0
     graph: Graph | None = None
+    is_exact: bool = True
 
     def __post_init__(self) -> None:
         owner = f"Light '{self.name}'"
@@ -171,7 +177,7 @@ class Light:
     @cached_property
     def plain(self) -> Light:
         """As `Scene.plain`."""
-        return with_fields(self, name="", graph=None)
+        return with_fields(self, name="", graph=None) if self.is_exact else self
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,12 +187,14 @@ class World:
     env_from_world  (3, 3) f8, from world directions to the image's own (Mapping node), where `environment.py` says what
                     they see; a rotation, unless the Mapping node mirrors or scales
     graph           the world's nodes, if it uses any
+    is_exact        whether the values say all that the graph does; else it is compiled, and they stand in meanwhile
     """
 
     radiance: Color = (0.0, 0.0, 0.0)
     image: int = -1
     env_from_world: np.ndarray = field(default_factory=lambda: np.eye(3))
     graph: Graph | None = None
+    is_exact: bool = True
 
     def __post_init__(self) -> None:
         check("World", "env_from_world", self.env_from_world, "f8", (3, 3))
@@ -194,7 +202,7 @@ class World:
     @cached_property
     def plain(self) -> World:
         """As `Scene.plain`."""
-        return self if self.graph is None else with_fields(self, graph=None)
+        return with_fields(self, graph=None) if self.is_exact and self.graph is not None else self
 
 
 @dataclass(frozen=True, eq=False)
@@ -295,7 +303,7 @@ class Scene:
     @property
     def _plain_images(self) -> tuple[Image, ...]:
         """Images without names, unless there are trees that name them."""
-        has_trees = any(not m.is_exact for m in self.materials)
+        has_trees = any(not owner.is_exact for owner in (*self.materials, *self.lights, self.world))
         return self.images if has_trees else tuple(image.plain for image in self.images)
 
     @property

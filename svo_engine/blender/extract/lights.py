@@ -26,7 +26,9 @@ def read_light(lamp: Any, name: str, world_from_object: np.ndarray, warn: Callab
     scale = np.linalg.norm(axes, axis=0)
     common: dict[str, Any] = {"name": name, "world_from_light": _rigid(world_from_object, scale),
                               "casts_shadow": lamp.use_shadow, "graph": read_graph(tree_of(lamp), lamp)}
-    color, normalize = _color(lamp, name, warn), getattr(lamp, "normalize", True)
+    factor = _factor(lamp, name, warn)
+    color, normalize = _color(lamp, factor), getattr(lamp, "normalize", True)
+    common["is_exact"] = factor is not None
     if lamp.type == "SUN":
         emitted = units.sun_irradiance(lamp.energy, color, lamp.angle, normalize)
         return Light(kind="SUN", emitted=emitted, angle=lamp.angle, **common)
@@ -60,16 +62,30 @@ def _spot_angle(lamp: Any, scale: np.ndarray, name: str, warn: Callable[[str], o
     return 2 * math.atan(math.tan(min(lamp.spot_size / 2, math.pi / 2)) * widening)
 
 
-def _color(lamp: Any, name: str, warn: Callable[[str], object]) -> Color:
-    """Colour times temperature times exposure times what the lamp's nodes say."""
-    r, g, b = lamp.color
-    factor = np.array((r, g, b)) * 2.0 ** getattr(lamp, "exposure", 0.0)
-    if getattr(lamp, "use_temperature", False):
-        factor = factor * lamp.temperature_color
+def _factor(lamp: Any, name: str, warn: Callable[[str], object]) -> Color | None:
+    """What the lamp's nodes make of its colour; None if only their compiled tree can say it, and what it cannot."""
     tree = tree_of(lamp)
-    if tree is not None:
-        factor = factor * surface(Reader(f"Light '{name}'", None, warn), fed_output(tree, "Surface")).emission
-    r, g, b = factor.tolist()
+    if tree is None:
+        return 1.0, 1.0, 1.0
+    notes: dict[str, None] = {}
+    reader = Reader(f"Light '{name}'", None, notes.setdefault)
+    emission = surface(reader, fed_output(tree, "Surface")).emission
+    if not reader.is_exact:
+        return None
+    for note in notes:
+        warn(note)
+    return emission
+
+
+def _color(lamp: Any, factor: Color | None) -> Color:
+    """Colour times temperature times exposure times what the lamp's nodes say, if they are constant."""
+    r, g, b = lamp.color
+    color = np.array((r, g, b)) * 2.0 ** getattr(lamp, "exposure", 0.0)
+    if getattr(lamp, "use_temperature", False):
+        color = color * lamp.temperature_color
+    if factor is not None:
+        color = color * factor
+    r, g, b = color.tolist()
     return r, g, b
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The world: a colour, or an equirectangular image that Mapping nodes may turn."""
+"""The world: a colour, or an equirectangular image that Mapping nodes may turn; its nodes, where they say more."""
 
 from __future__ import annotations
 
@@ -53,13 +53,17 @@ def read_world(world: Any, images: Images, warn: Callable[[str], object]) -> Wor
     if tree is None:
         r, g, b = world.color
         return World((r, g, b))
-    environments = _Environments(images)
-    reader = Reader(f"World '{world.name}'", environments, warn)
     volume = fed_output(tree, "Volume")
     if volume is not None and not volume.is_constant:
-        reader.warn("volume is left out")
+        warn(f"World '{world.name}': volume is left out")
+    environments, notes = _Environments(images), dict[str, None]()
+    reader = Reader(f"World '{world.name}'", environments, notes.setdefault)
     background, graph = surface(reader, fed_output(tree, "Surface")), read_graph(tree, world)
     images.add_named(graph)
+    if not reader.is_exact:  # who compiles it tells what it does not know
+        return World(background.emission, graph=graph, is_exact=False)
+    for note in notes:
+        warn(note)
     if background.emission_texture < 0:
         return World(background.emission, graph=graph)
     return World(background.emission, *environments.found[background.emission_texture], graph=graph)
