@@ -17,6 +17,7 @@ from .gpu.device import Device
 from .gpu.kept import Kept
 from .gpu.thread import GpuThread
 from .needs import Needs, needs_of
+from .nodes.sources import settled
 from .passes.adaptive import Progress, is_done, make_progress
 from .passes.bvh import build_bvh, build_meshes
 from .passes.cache import LightCache, light_cache, link
@@ -75,6 +76,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     sums = device.profiler.reset()
     with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
+            scene = settled(scene)
             trees = trees_of(scene, stage)
             device.programs.begin(trees.variants)
             needs = needs_of(scene, settings, trees.compiled)

@@ -34,6 +34,7 @@ const uint RAY_TRANSMISSION = 8u;
 const uint RAY_SHADOW = 16u;
 const uint RAY_REFLECTION = 32u;
 const uint RAY_SINGULAR = 64u;
+const uint RAY_DISC = 128u;
 const uint POINT_SURFACE = 1u;
 const uint POINT_LOBES = 2u;
 const uint POINT_SMOOTH = 4u;

@@ -5,11 +5,11 @@
 // Out:        u_film: sums in the layers that are asked for, of tiles that are not done
 // Invocation: one pixel
 
-#include "bind/environment.glsl"
 #include "bind/film.glsl"
 #include "bind/gloss.glsl"
 #include "bind/pixels.glsl"
 #include "bind/wave.glsl"
+#include "bind/world_seen.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -72,7 +72,7 @@ void add_world(ivec2 pixel)
 {
     vec3 origin, direction;
     camera_ray(vec2(pixel) + 0.5, origin, direction);
-    vec3 world = world_radiance(direction, 0.0);
+    vec3 world = world_seen(direction);
     vec4 shown = u_film_transparent ? vec4(0.0) : vec4(world, 1.0);
     add(pixel, ENVIRONMENT, vec4(world, 0.0));
     add(pixel, ALBEDO, vec4(shown.rgb, 0.0));

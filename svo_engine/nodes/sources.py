@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ..scene.geometry import with_fields
 from ..scene.graph import Graph
 from ..scene.types import Color, Light, Scene, World
 from .build import Built
@@ -50,7 +49,9 @@ class LampTree:
 
 def settled(scene: Scene) -> Scene:
     """The scene with the values of those trees of world and lamps that say the same everywhere."""
-    return with_fields(scene, world=_settled_world(scene.world), lights=tuple(map(_settled_lamp, scene.lights)))
+    if scene.world.is_exact and all(light.is_exact for light in scene.lights):
+        return scene
+    return replace(scene, world=_settled_world(scene.world), lights=tuple(map(_settled_lamp, scene.lights)))
 
 
 def world_trees(graph: Graph) -> WorldTrees:
@@ -70,7 +71,7 @@ def _settled_world(world: World) -> World:
         return world
     trees = world_trees(world.graph)
     if trees.light.color is None or trees.seen is not trees.light:
-        return with_fields(world, radiance=trees.light.color or (1.0, 1.0, 1.0), image=-1, env_from_world=np.eye(3))
+        return World(trees.light.color or (1.0, 1.0, 1.0), graph=world.graph, is_exact=False)
     return World(trees.light.color)
 
 
@@ -78,11 +79,11 @@ def _settled_lamp(light: Light) -> Light:
     if light.is_exact or light.graph is None:
         return light
     tree = lamp_tree(light.graph)
-    way = {"falloff": tree.falloff.falloff, "smoothing": tree.falloff.smoothing}
+    way: dict[str, Any] = {"falloff": tree.falloff.falloff, "smoothing": tree.falloff.smoothing}
     if tree.shine.color is None:
-        return with_fields(light, **way)
+        return replace(light, **way)
     r, g, b = (a * b for a, b in zip(light.emitted, tree.shine.color, strict=True))
-    return with_fields(light, emitted=(r, g, b), is_exact=True, graph=None, **way)
+    return replace(light, emitted=(r, g, b), is_exact=True, graph=None, **way)
 
 
 def _world_trees(graph: Graph) -> WorldTrees:

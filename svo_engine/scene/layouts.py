@@ -103,7 +103,7 @@ CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "PROGRAM_MATTE": 0, "PROGRAM_PRINCIPLED": 1, "PROGRAM_TREE": 2,
              # what kind of ray has come to a point that a tree is evaluated at
              "RAY_CAMERA": 1, "RAY_DIFFUSE": 2, "RAY_GLOSSY": 4, "RAY_TRANSMISSION": 8, "RAY_SHADOW": 16,
-             "RAY_REFLECTION": 32, "RAY_SINGULAR": 64,
+             "RAY_REFLECTION": 32, "RAY_SINGULAR": 64, "RAY_DISC": 128,
              "POINT_SURFACE": 1, "POINT_LOBES": 2, "POINT_SMOOTH": 4, "POINT_BENDING": 8, "POINT_ROUGH": 16,
              "POINT_DONE": 32, "POINT_LIFTED": 64, "POINT_GLOWS": 128, "POINT_PASSES": 256,
              # uvec4 a slot in bind/wave.glsl

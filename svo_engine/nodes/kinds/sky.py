@@ -18,7 +18,7 @@ from . import Outputs, kind
 @kind("ShaderNodeTexSky")
 def sky(n: Reader) -> Outputs:
     """The sky in the direction of a vector."""
-    direction = n.vector("Vector", lambda: n.call("generated"))
+    direction = n.vector("Vector", n.generated)
     model, settings = n.setting("sky_type"), n.node.settings
     if model in ("PREETHAM", "HOSEK_WILKIE"):
         if model == "HOSEK_WILKIE":

@@ -16,6 +16,7 @@ from ...gpu.device import Device
 from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...needs import Needs, needs_of
+from ...nodes.sources import settled
 from ...scene.types import Scene
 from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
@@ -25,7 +26,7 @@ from .looks import Looks
 from .placing import Draw, Placing, place
 from .shading import Shading, upload_shading
 from .shapes import pack_units, upload_shapes
-from .sky import Sky, linear_pixels, upload_sky, world_uniforms
+from .sky import Sky, linear_pixels, world_uniforms
 from .surfaces import Surfaces, upload_surfaces
 from .trees import Trees, upload_trees
 
@@ -96,6 +97,7 @@ def upload(device: Device, scene: Scene) -> GpuScene:
         scope.adopt(made.scope)
         return made
 
+    scene = settled(scene)
     trees = trees_of(scene, make)
     return assemble(scope, scene, needs_of(scene, RenderSettings(), trees.compiled), trees, make)
 
@@ -107,7 +109,8 @@ def trees_of(scene: Scene, make: Make) -> Trees:
 
 def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Make) -> GpuScene:
     """The scene from parts: `make(name, function, *inputs, n_kept)` gives function(device, *inputs), or a kept one."""
-    from ..bake import bake  # which needs this package
+    from ..bake import bake  # which need this package
+    from ..sources import make_sky
 
     scene = scene.plain
     shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
@@ -118,8 +121,9 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     shading = make("shading", upload_shading, placing, scene.meshes, scene.instances, asked)
     looks = make("looks", bake, placing, surfaces, trees, table, shading, scene.camera if trees.want_view else None)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
+    tree = None if scene.world.is_exact else scene.world.graph
+    sky = make("sky", make_sky, world, tree, scene.images if tree else ())
     return GpuScene(
         scope, scene, needs, placing, trees, shading, surfaces, looks,
         make("cutouts", mark_cutouts, placing, looks, needs.skips),
-        make("lamps", upload_lamps, scene.lights, placing.centre_ws), make("sky", upload_sky, world),
-        table)
+        make("lamps", upload_lamps, (*scene.lights, *sky.suns), placing.centre_ws), sky, table)
