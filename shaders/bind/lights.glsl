@@ -2,10 +2,10 @@
 // Purpose: light that is drawn at a point, with traced shadows: of lamps and of the world. That of emissive triangles is
 // drawn before (lights/draw), since it needs their materials.
 
+#include "bind/lamp_tables.glsl"
 #include "bind/light_tree.glsl"
 #include "bind/sky.glsl"
 #include "bind/trace.glsl"
-#include "lib/light_sampling.glsl"
 #include "lib/surface.glsl"
 
 const float SHADOW_END = 0.9999;  // of the way: the light may touch a surface
@@ -34,7 +34,7 @@ LightDraw draw_lamp(int k, int n_tree, Surface s, uint sample_index, uint seed, 
         u = v.xy;
     }
     casts_shadow = lights[lamp].casts_shadow != 0u;
-    LightSample found = sample_light(lights[lamp], s.position, u);
+    LightSample found = sample_lamp(lights[lamp], s.position, u);
     return LightDraw(found.wi, found.distance, found.E_perp / probability, found.pdf * probability);
 }
 
@@ -94,7 +94,7 @@ bool trace(Way way, out Crossing hit)
 // Radiance of one lamp on a ray, drawn with pdf_ray, that surface `from` draws with that probability.
 vec3 lamp_on_ray(uint lamp, Surface from, vec3 d, float t_hit, float probability, float pdf_ray)
 {
-    LightSample found = meet_light(lights[lamp], from.position, d);
+    LightSample found = meet_lamp(lights[lamp], from.position, d);
     if (found.pdf == 0.0 || found.distance > t_hit)
         return vec3(0.0);
     return found.E_perp * found.pdf * balance(pdf_ray, found.pdf * probability);

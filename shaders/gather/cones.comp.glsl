@@ -11,11 +11,11 @@
 #include "bind/environment.glsl"
 #include "bind/gloss.glsl"
 #include "bind/instances.glsl"
+#include "bind/lamp_tables.glsl"
 #include "bind/materials.glsl"
 #include "bind/pixels.glsl"
 #include "bind/wave.glsl"
 #include "lib/brdf.glsl"
-#include "lib/light_sampling.glsl"
 
 const int N_RING = 8;             // cones around the one along the normal
 
@@ -80,7 +80,7 @@ void direct_light(Surface s, vec3 wo, vec4 mirror, uint seed, inout vec3 E, inou
 {
     float NoV = dot(s.normal, wo), alpha = max(mirror.w * mirror.w, 1e-3);
     for (int i = 0; i < u_n_lights; i++) {
-        LightSample light = sample_light(lights[i], s.position, sobol_point(u_sample, seed + uint(i)));
+        LightSample light = sample_lamp(lights[i], s.position, sobol_point(u_sample, seed + uint(i)));
         float NoL = dot(s.normal, light.wi);
         if (NoL <= 0.0 || dot(s.normal_geometric, light.wi) <= 0.0 || light.E_perp == vec3(0.0))
             continue;

@@ -15,6 +15,9 @@ const uint EXTENSION_REPEAT = 0u;
 const uint EXTENSION_EXTEND = 1u;
 const uint EXTENSION_CLIP = 2u;
 const uint EXTENSION_MIRROR = 3u;
+const uint FALLOFF_QUADRATIC = 0u;
+const uint FALLOFF_LINEAR = 1u;
+const uint FALLOFF_CONSTANT = 2u;
 const uint LIGHT_POINT = 0u;
 const uint LIGHT_SUN = 1u;
 const uint LIGHT_SPOT = 2u;
@@ -136,6 +139,10 @@ struct Light {
     vec2 size;
     float spot_blend;
     uint soft_falloff;
+    uint falloff;
+    float smoothing;
+    uint table;
+    uint table_size;
 };
 
 struct LightNode {

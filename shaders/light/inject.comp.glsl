@@ -6,8 +6,8 @@
 // Out:        u_radiance: rgb outgoing radiance [W m^-2 sr^-1] times opacity, a opacity
 // Invocation: one occupied voxel
 
+#include "bind/lamp_tables.glsl"
 #include "bind/voxels.glsl"
-#include "lib/light_sampling.glsl"
 
 const float START = 2.0;       // voxels between a voxel's centre and the start of its shadow ray: leaves its own surface
 
@@ -58,7 +58,7 @@ void main()
         int n_points = light.size == vec2(0.0) ? 1 : u_n_points;
         for (int k = 0; k < n_points; k++) {
             vec2 u = n_points == 1 ? vec2(0.5) : sobol_point(uint(k), 0u);
-            LightSample s = sample_light(light, p, u);
+            LightSample s = sample_lamp(light, p, u);
             vec3 n = has_normal ? normal * (dot(normal, s.wi) < 0.0 ? -1.0 : 1.0) : s.wi;
             if (s.E_perp == vec3(0.0) || (light.casts_shadow != 0u && is_shadowed(at, n, s)))
                 continue;

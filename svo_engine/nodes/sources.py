@@ -80,6 +80,8 @@ def _settled_lamp(light: Light) -> Light:
         return light
     tree = lamp_tree(light.graph)
     way: dict[str, Any] = {"falloff": tree.falloff.falloff, "smoothing": tree.falloff.smoothing}
+    if light.kind == "SUN":  # which is nowhere near
+        way = {}
     if tree.shine.color is None:
         return replace(light, **way)
     r, g, b = (a * b for a, b in zip(light.emitted, tree.shine.color, strict=True))

@@ -30,7 +30,8 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, eye: Eye, 
     grid = lit.voxels.grid
     device.dispatch(
         CONES, part.n, **gpu_scene.placing.instances, **gpu_scene.materials, **gpu_scene.world(), **eye.pixels(part),
-        **grid.uniforms(), **parts.of(part, EYE), Lights=gpu_scene.lamps.rows, u_albedo=gpu_scene.table.table,
+        **grid.uniforms(), **parts.of(part, EYE), Lights=gpu_scene.lamps.rows,
+        u_lamp_tables=gpu_scene.lamps.tables, u_albedo=gpu_scene.table.table,
         u_radiance=lit.radiance, u_n_lights=len(gpu_scene.lamps.lights), u_has_light=gpu_scene.needs.light,
         u_has_gloss=gpu_scene.needs.gloss, u_gloss=parts.planes["gloss"], u_cone_offset=settings.cone_offset,
         u_cone_step=settings.cone_step, u_cone_distance=settings.cone_distance * grid.n, u_sample=eye.sample,

@@ -51,11 +51,13 @@ SHOWN: Fields = (("color", "vec4"), ("low", "vec3"), ("random", "float"), ("size
                  ("generated", "vec3"), ("first_row", "uint"), ("uv", "vec2"), ("number", "uint"))
 
 # `scene.types.Light`; axes are unit vectors, the lamp shines along -axis_z. size: half extents (AREA), radius in
-# size.x (POINT, SPOT), tangent of half the angle in size.x (SUN). spot: cosine of half the angle, blend
+# size.x (POINT, SPOT), tangent of half the angle in size.x (SUN). spot: cosine of half the angle, blend. table: first
+# texel of what its nodes make of it, in table_size columns + 65536 rows; no rows: nothing
 LIGHT: Fields = (("position", "vec3"), ("kind", "uint"), ("emitted", "vec3"), ("is_ellipse", "uint"),
                  ("axis_x", "vec3"), ("casts_shadow", "uint"), ("axis_y", "vec3"), ("spread", "float"),
                  ("axis_z", "vec3"), ("spot_cos", "float"), ("size", "vec2"), ("spot_blend", "float"),
-                 ("soft_falloff", "uint"))
+                 ("soft_falloff", "uint"), ("falloff", "uint"), ("smoothing", "float"), ("table", "uint"),
+                 ("table_size", "uint"))
 
 # A node of a light tree: the box around its lights and their intensity [W sr^-1]; in a leaf, the light's index
 LIGHT_NODE: Fields = (("low", "vec3"), ("intensity", "float"), ("high", "vec3"), ("light", "uint"))
@@ -96,6 +98,7 @@ CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "ATTRIBUTE_POINT": 1, "ATTRIBUTE_FACE": 2, "ATTRIBUTE_CORNER": 3, "ATTRIBUTE_INSTANCE": 4,
              "WORDS_WIDTH": 4096, "WORDS_HEIGHT": 1024,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
+             "FALLOFF_QUADRATIC": 0, "FALLOFF_LINEAR": 1, "FALLOFF_CONSTANT": 2,
              "LIGHT_POINT": 0, "LIGHT_SUN": 1, "LIGHT_SPOT": 2, "LIGHT_AREA": 3,
              "NO_NORMAL": 0x80008000,
              "BVH_LEAF": 0x80000000, "BVH_NONE": 0xffffffff, "BVH_HEIGHT_BITS": 6,

@@ -29,7 +29,7 @@ TREE_DRAWS = 4  # of many lamps, at what the eye sees; one at what rays meet
 
 @dataclass(frozen=True, eq=False)
 class Lights:
-    """lamps: the buffer of all lamps that shine; nodes: of their tree, which has n_leaves.
+    """lamps: the buffer of all lamps that shine, whose tables are in `tables`; nodes: of their tree, which has n_leaves.
 
     n_own, n_in_tree  lamps that are drawn each by itself, and from the tree
     """
@@ -41,10 +41,11 @@ class Lights:
     n_own: int
     n_in_tree: int
     glow: Glow
+    tables: Texels
 
     def resources(self) -> Resources:
         """What bind/lights.glsl reads."""
-        return {"Lights": self.lamps, "u_light_nodes": self.nodes, "u_lamp_tree": (0, self.n_leaves),
+        return {"Lights": self.lamps, "u_lamp_tables": self.tables, "u_light_nodes": self.nodes, "u_lamp_tree": (0, self.n_leaves),
                 **self.draws(), **self.glow.sky()}
 
     def emitters(self) -> Resources:
@@ -75,8 +76,8 @@ def make_lights(device: Device, lamps: Lamps, glow: Glow) -> Lights:
     own, many = _split([light for light in lamps.lights if max(light.emitted) > 0])
     tree = light_tree(*_boxes(many, lamps.centre_ws), np.array([_intensity(light) for light in many]))
     tree["light"] += len(own)
-    return Lights(scope, scope.buffer("drawn lamps", light_rows([*own, *many], lamps.centre_ws)),
-                  scope.texels("lamp tree", tree), len(tree) // 2, len(own), len(many), glow)
+    return Lights(scope, scope.buffer("drawn lamps", light_rows([*own, *many], lamps.centre_ws, lamps.places)),
+                  scope.texels("lamp tree", tree), len(tree) // 2, len(own), len(many), glow, lamps.tables)
 
 
 def _split(lamps: list[Light]) -> tuple[list[Light], list[Light]]:

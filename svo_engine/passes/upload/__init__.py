@@ -21,7 +21,7 @@ from ...scene.types import Scene
 from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
 from .cutouts import Cutouts, mark_cutouts, opacity_of
-from .lamps import Lamps, light_rows, upload_lamps
+from .lamps import Lamps, light_rows
 from .looks import Looks
 from .placing import Draw, Placing, place
 from .shading import Shading, upload_shading
@@ -110,6 +110,7 @@ def trees_of(scene: Scene, make: Make) -> Trees:
 def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Make) -> GpuScene:
     """The scene from parts: `make(name, function, *inputs, n_kept)` gives function(device, *inputs), or a kept one."""
     from ..bake import bake  # which need this package
+    from ..lights.lamps import make_lamps
     from ..sources import make_sky
 
     scene = scene.plain
@@ -122,8 +123,9 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     looks = make("looks", bake, placing, surfaces, trees, table, shading, scene.camera if trees.want_view else None)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     tree = None if scene.world.is_exact else scene.world.graph
+    images = () if all(light.is_exact for light in scene.lights) else scene.images
     sky = make("sky", make_sky, world, tree, scene.images if tree else ())
     return GpuScene(
         scope, scene, needs, placing, trees, shading, surfaces, looks,
         make("cutouts", mark_cutouts, placing, looks, needs.skips),
-        make("lamps", upload_lamps, (*scene.lights, *sky.suns), placing.centre_ws), sky, table)
+        make("lamps", make_lamps, (*scene.lights, *sky.suns), images, placing.centre_ws), sky, table)

@@ -3,35 +3,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ...gpu.buffer import Buffer
 from ...gpu.device import Device
 from ...gpu.scope import GpuScope
+from ...gpu.texels import Texels
 from ...scene import layouts
 from ...scene.types import Light
+
+# By the identity of a lamp: the first texel of its table, and its columns + 65536 rows
+Places = Mapping[int, tuple[int, int]]
 
 
 @dataclass(frozen=True, eq=False)
 class Lamps:
-    """lights: those of the scene; rows: a buffer of layout LIGHT, in their order; centre_ws as in `Placing`."""
+    """lights: those of the scene; rows: a buffer of layout LIGHT, in their order; centre_ws as in `Placing`.
+
+    tables  what their nodes make of their light, as bind/lamp_tables.glsl reads it; places: where
+    notes   a sentence for each thing that is not as in Blender
+    """
 
     scope: GpuScope
     lights: tuple[Light, ...]
     rows: Buffer
     centre_ws: np.ndarray
+    tables: Texels
+    places: Places = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
-def upload_lamps(device: Device, lights: tuple[Light, ...], centre: np.ndarray) -> Lamps:
-    """Copy all lamps, positions relative to `centre`."""
-    scope = device.scope()
-    return Lamps(scope, lights, scope.buffer("lights", light_rows(lights, centre)), centre)
+def upload_lamps(device: Device, lights: tuple[Light, ...], centre: np.ndarray,
+                 tables: Sequence[np.ndarray | None] = (), notes: tuple[str, ...] = ()) -> Lamps:
+    """Copy all lamps, positions relative to `centre`.
+
+    tables  for each lamp a factor of its light (height, width, 3) f4, or None
+    """
+    scope, texels, places, n = device.scope(), [np.zeros((1, 4), "f4")], dict[int, tuple[int, int]](), 1
+    for light, table in zip(lights, tables, strict=False):
+        if table is not None:
+            places[id(light)] = n, table.shape[1] | table.shape[0] << 16
+            texels.append(np.pad(table.reshape(-1, 3), ((0, 0), (0, 1))).astype("f4"))
+            n += len(texels[-1])
+    return Lamps(scope, lights, scope.buffer("lights", light_rows(lights, centre, places)), centre,
+                 scope.texels("lamp tables", np.concatenate(texels)), places, notes)
 
 
-def light_rows(lights: Sequence[Light], centre: np.ndarray) -> np.ndarray:
+def light_rows(lights: Sequence[Light], centre: np.ndarray, places: Places | None = None) -> np.ndarray:
     """Lamps in layout LIGHT, positions relative to `centre`, (3,) f8, metres."""
     rows = np.zeros(len(lights), layouts.dtype(layouts.LIGHT))
     for row, light in zip(rows, lights, strict=True):
@@ -41,6 +62,8 @@ def light_rows(lights: Sequence[Light], centre: np.ndarray) -> np.ndarray:
         row["kind"] = layouts.CONSTANTS[f"LIGHT_{light.kind}"]
         row["emitted"], row["casts_shadow"] = light.emitted, light.casts_shadow
         row["is_ellipse"], row["spread"], row["soft_falloff"] = light.is_ellipse, light.spread, light.soft_falloff
+        row["falloff"], row["smoothing"] = layouts.CONSTANTS[f"FALLOFF_{light.falloff}"], light.smoothing
+        row["table"], row["table_size"] = (places or {}).get(id(light), (0, 0))
         row["spot_cos"], row["spot_blend"] = np.cos(light.spot_angle / 2), light.spot_blend
         if light.kind == "AREA":
             row["size"] = light.size[0] / 2, light.size[1] / 2
