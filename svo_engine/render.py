@@ -17,7 +17,7 @@ from .gpu.device import Device
 from .gpu.kept import Kept
 from .gpu.thread import GpuThread
 from .needs import Needs, needs_of
-from .nodes.sources import settled
+from .nodes.sources import settled, told
 from .passes.adaptive import Progress, is_done, make_progress
 from .passes.bvh import build_bvh, build_meshes
 from .passes.cache import LightCache, light_cache, link
@@ -76,7 +76,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
     sums = device.profiler.reset()
     with kept.frame(device) as stage, device.scope() as scope:
         with device.profiler.host("upload"):
-            scene = settled(scene)
+            sentences, scene = told(scene), settled(scene)
             trees = trees_of(scene, stage)
             device.programs.begin(trees.variants)
             needs = needs_of(scene, settings, trees.compiled)
@@ -89,7 +89,7 @@ def render(scene: Scene, view: View, settings: RenderSettings, device: Device, k
                          not needs.alpha, n_kept=SIZES)
         film = make_film(scope, view, planes_for(needs, settings, denoiser.name), gpu_scene.centre_ws,
                          is_black=settings.view != "combined")
-        frame = Frame(needs, film, denoiser, [*trees.told(), *gpu_scene.surfaces.limits, *denoiser.limits],
+        frame = Frame(needs, film, denoiser, [*trees.told(), *sentences, *gpu_scene.told(), *denoiser.limits],
                       make_progress(scope, film, settings))
         targets = stage("targets", make_targets, view.size, n_kept=SIZES)
         tracer, show = _method(stage, device, gpu_scene, targets, view, settings, frame)

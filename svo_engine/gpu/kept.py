@@ -99,18 +99,16 @@ class Kept:
 
 def _same(a: Any, b: Any) -> bool:
     """Whether two inputs are the same: values, arrays and records of them by value, results of stages by identity."""
-    if a is b:
-        return True
-    if type(a) is not type(b) or hasattr(a, "scope"):
-        return False
+    if a is b or type(a) is not type(b) or hasattr(a, "scope"):
+        return a is b
     if isinstance(a, np.ndarray):
         return a.dtype == b.dtype and np.array_equal(a, b)
     if isinstance(a, tuple):
         return len(a) == len(b) and all(map(_same, a, b))
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
     if is_dataclass(a):
         return all(_same(getattr(a, field.name), getattr(b, field.name)) for field in fields(a))
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
     return isinstance(a, (int, float, str)) and a == b
 
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-WATTS = 0.0706650768394  # 4 pi / 177.83: what Blender's watts make of candelas, at the efficacy of daylight D65 [lm W^-1]
+# What Blender's watts make of candelas: 4 pi / 177.83, the efficacy of daylight D65 [lm W^-1]
+WATTS = 0.0706650768394
 TYPE_C, TYPE_B = 1, 2
 
 

@@ -54,7 +54,7 @@ def without_falloff(graph: Graph, warn: Callable[[str], object]) -> tuple[Graph,
     def changed(node: Node) -> Node:
         if node.kind != "ShaderNodeLightFalloff":
             return node
-        outputs = {name: "Strength" for name in _POWERS}
+        outputs = dict.fromkeys(_POWERS, "Strength")
         return replace(node, through=outputs)
 
     return _rewritten(graph, changed), next(iter(found), Falloff())

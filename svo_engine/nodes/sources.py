@@ -54,6 +54,18 @@ def settled(scene: Scene) -> Scene:
     return replace(scene, world=_settled_world(scene.world), lights=tuple(map(_settled_lamp, scene.lights)))
 
 
+def told(scene: Scene) -> list[str]:
+    """A sentence for each thing in the trees of world and lamps that is not as in Blender."""
+    found: dict[str, None] = {}
+    if not scene.world.is_exact and scene.world.graph:
+        trees = world_trees(scene.world.graph)
+        found.update(dict.fromkeys(f"World: {note}" for note in (*trees.light.notes, *trees.seen.notes)))
+    for light in scene.lights:
+        if not light.is_exact and light.graph:
+            found.update(dict.fromkeys(f"Light '{light.name}': {n}" for n in lamp_tree(light.graph).shine.notes))
+    return list(found)
+
+
 def world_trees(graph: Graph) -> WorldTrees:
     """The trees of a world."""
     made: WorldTrees = _remembered("world", graph, _world_trees)

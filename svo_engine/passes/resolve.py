@@ -75,7 +75,8 @@ def make_film(scope: GpuScope, view: View, planes: tuple[str, ...], centre: np.n
 
 def resolve(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part, film: GpuFilm) -> None:
     """Add one part of a sample to `film`."""
-    device.dispatch(ACCUMULATE, part.n, **gpu_scene.world(), **gpu_scene.sky.for_camera(), **eye.pixels(part), **parts.of(part, EYE),
+    device.dispatch(ACCUMULATE, part.n, **gpu_scene.world(), **gpu_scene.sky.for_camera(), **eye.pixels(part),
+                    **parts.of(part, EYE),
                     **film.layers(), u_gloss=parts.planes["gloss"], u_film=film.sums, u_n_planes=len(film.planes),
                     u_film_transparent=gpu_scene.scene.film_transparent, u_sample=film.n_samples,
                     u_has_lobes=gpu_scene.needs.gloss)

@@ -49,7 +49,7 @@ def make_sky(device: Device, image: Image | None, graph: Graph | None, images: t
     if len(suns) > 1:
         notes.setdefault("several suns light the scene, but the camera sees only the first one")
     return replace(sky, suns=lamps, sun=_seen_sun(device, trees.seen, images, suns[0]) if suns else SeenSun(),
-                   notes=tuple(f"World: {note}" for note in (*trees.light.notes, *notes)))
+                   notes=tuple(f"World: {note}" for note in notes))
 
 
 def _pixels(device: Device, shine: Shine, images: tuple[Image, ...], rays: int) -> np.ndarray | None:
@@ -103,11 +103,12 @@ def _disc(device: Device, shine: Shine, images: tuple[Image, ...], sun: PlacedSu
     if shine.color is not None:
         return np.zeros((len(share), 3)), share
     points = points_of_world(directions)
-    lit, dark = (light_of_points(device, shine.tree, images, points, bits).astype("f8") for bits in (rays | _DISC, rays))
-    return lit - dark, share
+    lit, dark = (light_of_points(device, shine.tree, images, points, bits) for bits in (rays | _DISC, rays))
+    return lit.astype("f8") - dark, share
 
 
-def light_of_image(device: Device, tree: One, images: tuple[Image, ...], size: tuple[int, int], rays: int) -> np.ndarray:
+def light_of_image(device: Device, tree: One, images: tuple[Image, ...], size: tuple[int, int],
+                   rays: int) -> np.ndarray:
     """Radiance (height, width, 3) f4 of a world in all directions, as `environment.py` lays them out.
 
     size  (width, height); rays: bits RAY_*

@@ -303,8 +303,8 @@ class Scene:
     @property
     def _plain_images(self) -> tuple[Image, ...]:
         """Images without names, unless there are trees that name them."""
-        has_trees = any(not owner.is_exact for owner in (*self.materials, *self.lights, self.world))
-        return self.images if has_trees else tuple(image.plain for image in self.images)
+        is_exact = [self.world.is_exact, *(m.is_exact for m in self.materials), *(k.is_exact for k in self.lights)]
+        return tuple(image.plain for image in self.images) if all(is_exact) else self.images
 
     @property
     def _shaded(self) -> set[int]:

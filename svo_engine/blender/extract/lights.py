@@ -63,18 +63,13 @@ def _spot_angle(lamp: Any, scale: np.ndarray, name: str, warn: Callable[[str], o
 
 
 def _factor(lamp: Any, name: str, warn: Callable[[str], object]) -> Color | None:
-    """What the lamp's nodes make of its colour; None if only their compiled tree can say it, and what it cannot."""
+    """What the lamp's nodes make of its colour; None if only their compiled tree can say it."""
     tree = tree_of(lamp)
     if tree is None:
         return 1.0, 1.0, 1.0
-    notes: dict[str, None] = {}
-    reader = Reader(f"Light '{name}'", None, notes.setdefault)
+    reader = Reader(f"Light '{name}'", None, warn, tells_guesses=False)
     emission = surface(reader, fed_output(tree, "Surface")).emission
-    if not reader.is_exact:
-        return None
-    for note in notes:
-        warn(note)
-    return emission
+    return emission if reader.is_exact else None
 
 
 def _color(lamp: Any, factor: Color | None) -> Color:

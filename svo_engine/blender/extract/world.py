@@ -56,14 +56,12 @@ def read_world(world: Any, images: Images, warn: Callable[[str], object]) -> Wor
     volume = fed_output(tree, "Volume")
     if volume is not None and not volume.is_constant:
         warn(f"World '{world.name}': volume is left out")
-    environments, notes = _Environments(images), dict[str, None]()
-    reader = Reader(f"World '{world.name}'", environments, notes.setdefault)
+    environments = _Environments(images)
+    reader = Reader(f"World '{world.name}'", environments, warn, tells_guesses=False)
     background, graph = surface(reader, fed_output(tree, "Surface")), read_graph(tree, world)
     images.add_named(graph)
-    if not reader.is_exact:  # who compiles it tells what it does not know
+    if not reader.is_exact:
         return World(background.emission, graph=graph, is_exact=False)
-    for note in notes:
-        warn(note)
     if background.emission_texture < 0:
         return World(background.emission, graph=graph)
     return World(background.emission, *environments.found[background.emission_texture], graph=graph)

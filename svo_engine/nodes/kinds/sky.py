@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from ..expr import Expr, constant
 from ..rays import CONSTANTS
 from ..reader import Reader
@@ -24,19 +22,19 @@ def sky(n: Reader) -> Outputs:
         if model == "HOSEK_WILKIE":
             n.warn("the sky by Hosek and Wilkie is not supported; the one by Preetham is used")
         parameters = preetham(n.setting("sun_direction"), n.setting("turbidity"))
-        return {"Color": n.call("sky_preetham", direction, n.table(parameters))}
+        return {"Color": n.call("sky_preetham", direction, n.table(parameters.tolist()))}
     if model not in ("NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
         n.warn(f"the sky of type {model} is not known; it is black")
         return {"Color": n.value((0.0, 0.0, 0.0))}
     function = "sky_nishita" if model == "NISHITA" else "sky_scattering"
-    color = n.call(function, direction, n.table(table_of(settings).ravel()), n.value(sun_of(settings).rotation))
+    color = n.call(function, direction, n.table(table_of(settings).ravel().tolist()), n.value(sun_of(settings).rotation))
     disc = disc_of(settings)
     return {"Color": n.call("sky_disc", direction, color, n.table(_numbers(disc))) if disc else color}
 
 
-def _numbers(disc: Disc) -> np.ndarray:
-    """(11,) f8: as shaders/nodes/sky.glsl reads a disc."""
-    return np.array((*disc.sun.direction, disc.size / 2, *disc.ends[0], *disc.ends[1], disc.horizon))
+def _numbers(disc: Disc) -> list[float]:
+    """11, as shaders/nodes/sky.glsl reads a disc."""
+    return [*disc.sun.direction.tolist(), disc.size / 2, *disc.ends[0], *disc.ends[1], disc.horizon]
 
 
 @kind(CONSTANTS)

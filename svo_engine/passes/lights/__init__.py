@@ -29,7 +29,7 @@ TREE_DRAWS = 4  # of many lamps, at what the eye sees; one at what rays meet
 
 @dataclass(frozen=True, eq=False)
 class Lights:
-    """lamps: the buffer of all lamps that shine, whose tables are in `tables`; nodes: of their tree, which has n_leaves.
+    """lamps: the buffer of all lamps that shine; tables: theirs; nodes: of their tree, which has n_leaves.
 
     n_own, n_in_tree  lamps that are drawn each by itself, and from the tree
     """
@@ -45,8 +45,8 @@ class Lights:
 
     def resources(self) -> Resources:
         """What bind/lights.glsl reads."""
-        return {"Lights": self.lamps, "u_lamp_tables": self.tables, "u_light_nodes": self.nodes, "u_lamp_tree": (0, self.n_leaves),
-                **self.draws(), **self.glow.sky()}
+        return {"Lights": self.lamps, "u_lamp_tables": self.tables, "u_light_nodes": self.nodes,
+                "u_lamp_tree": (0, self.n_leaves), **self.draws(), **self.glow.sky()}
 
     def emitters(self) -> Resources:
         """What bind/emitters.glsl reads."""

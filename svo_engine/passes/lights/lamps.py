@@ -24,17 +24,15 @@ WIDE_SPOT = 0.17  # as in bind/lamp_tables.glsl
 
 def make_lamps(device: Device, lights: tuple[Light, ...], images: tuple[Image, ...], centre: np.ndarray) -> Lamps:
     """All lamps on the device, positions relative to `centre`."""
-    made, tables, notes = [], list[np.ndarray | None](), dict[str, None]()
+    made, tables = [], list[np.ndarray | None]()
     for light in lights:
         table = None
         if not light.is_exact and light.graph is not None:
             tree = lamp_tree(light.graph)
-            for note in tree.shine.notes:
-                notes.setdefault(f"Light '{light.name}': {note}")
             light, table = _with_table(light, light_of_points(device, tree.shine.tree, images, _points(light), 0))  # noqa: PLW2901
         made.append(light)
         tables.append(table)
-    return upload_lamps(device, tuple(made), centre, tables, tuple(notes))
+    return upload_lamps(device, tuple(made), centre, tables)
 
 
 def _with_table(light: Light, factors: np.ndarray) -> tuple[Light, np.ndarray | None]:

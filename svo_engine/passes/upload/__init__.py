@@ -83,6 +83,10 @@ class GpuScene:
         """(3,) f8, metres: what positions on the device are relative to."""
         return self.placing.centre_ws
 
+    def told(self) -> tuple[str, ...]:
+        """A sentence for each thing that is not as in Blender."""
+        return *self.sky.notes, *self.surfaces.limits
+
     def world(self) -> Resources:
         """What bind/environment.glsl reads."""
         return world_uniforms(self.sky, self.scene.world)

@@ -24,7 +24,6 @@ class Lamps:
     """lights: those of the scene; rows: a buffer of layout LIGHT, in their order; centre_ws as in `Placing`.
 
     tables  what their nodes make of their light, as bind/lamp_tables.glsl reads it; places: where
-    notes   a sentence for each thing that is not as in Blender
     """
 
     scope: GpuScope
@@ -33,11 +32,10 @@ class Lamps:
     centre_ws: np.ndarray
     tables: Texels
     places: Places = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
 
 
 def upload_lamps(device: Device, lights: tuple[Light, ...], centre: np.ndarray,
-                 tables: Sequence[np.ndarray | None] = (), notes: tuple[str, ...] = ()) -> Lamps:
+                 tables: Sequence[np.ndarray | None] = ()) -> Lamps:
     """Copy all lamps, positions relative to `centre`.
 
     tables  for each lamp a factor of its light (height, width, 3) f4, or None
@@ -49,7 +47,7 @@ def upload_lamps(device: Device, lights: tuple[Light, ...], centre: np.ndarray,
             texels.append(np.pad(table.reshape(-1, 3), ((0, 0), (0, 1))).astype("f4"))
             n += len(texels[-1])
     return Lamps(scope, lights, scope.buffer("lights", light_rows(lights, centre, places)), centre,
-                 scope.texels("lamp tables", np.concatenate(texels)), places, notes)
+                 scope.texels("lamp tables", np.concatenate(texels)), places)
 
 
 def light_rows(lights: Sequence[Light], centre: np.ndarray, places: Places | None = None) -> np.ndarray:
