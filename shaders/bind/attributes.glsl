@@ -4,6 +4,7 @@
 #include "bind/geo.glsl"
 
 layout(std430) readonly buffer ShownInstances { Shown shown[]; };  // in the device's order
+uniform mat4 u_place;                  // world_from_object of what is no mesh: of a lamp; of the world it changes nothing
 uniform usampler2DArray u_attributes;  // for each mesh and number two words, ATTRIBUTE_* and width; then the values
 
 struct Attribute {
@@ -54,12 +55,16 @@ vec4 attribute_at(Geo g, uint number)
 // Columns of world_from_object without its translation.
 mat3 world_from_object(Geo g)
 {
+    if (!has_object(g))
+        return mat3(u_place);
     Instance i = instances[g.instance];
     return transpose(mat3(i.row_x.xyz, i.row_y.xyz, i.row_z.xyz));
 }
 
 vec3 object_location(Geo g)
 {
+    if (!has_object(g))
+        return u_place[3].xyz;
     Instance i = instances[g.instance];
     return vec3(i.row_x.w, i.row_y.w, i.row_z.w) + u_centre;
 }
@@ -76,47 +81,47 @@ vec3 unit_or_zero(vec3 v)
     return l > 0.0 ? v / l : vec3(0.0);
 }
 
+vec3 point_to_object(Geo g, vec3 p)
+{
+    return inverse_of(world_from_object(g)) * (p - object_location(g));
+}
+
 // The point itself in object space, metres: from the corners, which is exact.
 vec3 position_os(Geo g)
 {
     if (!has_object(g))
-        return g.position;
+        return point_to_object(g, g.position);
     uvec4 corners = triangles[g.triangle];
     vec3 a = vertex_os(corners.x);
     return a + g.bary.x * (vertex_os(corners.y) - a) + g.bary.y * (vertex_os(corners.z) - a);
 }
 
-vec3 point_to_object(Geo g, vec3 p)
-{
-    return has_object(g) ? inverse_of(world_from_object(g)) * (p - object_location(g)) : p;
-}
-
 vec3 direction_to_object(Geo g, vec3 v)
 {
-    return has_object(g) ? inverse_of(world_from_object(g)) * v : v;
+    return inverse_of(world_from_object(g)) * v;
 }
 
 vec3 direction_to_world(Geo g, vec3 v)
 {
-    return has_object(g) ? world_from_object(g) * v : v;
+    return world_from_object(g) * v;
 }
 
 // Normals go by inverse transposes and stay unit vectors.
 vec3 normal_to_object(Geo g, vec3 n)
 {
-    return has_object(g) ? unit_or_zero(transpose(world_from_object(g)) * n) : n;
+    return unit_or_zero(transpose(world_from_object(g)) * n);
 }
 
 vec3 normal_from_object(Geo g, vec3 n)
 {
-    return has_object(g) ? unit_or_zero(transpose(inverse_of(world_from_object(g))) * n) : n;
+    return unit_or_zero(transpose(inverse_of(world_from_object(g))) * n);
 }
 
 // 0 to 1 in the box of the mesh's own coordinates.
 vec3 generated_at(Geo g)
 {
     if (!has_object(g))
-        return g.position;
+        return position_os(g);
     Shown s = shown[g.instance];
     return (position_os(g) - s.low) / mix(s.size, vec3(1.0), equal(s.size, vec3(0.0)));
 }

@@ -61,7 +61,7 @@ float object_number(Geo g)
 
 vec3 object_origin(Geo g)
 {
-    return has_object(g) ? object_location(g) : vec3(0.0);
+    return object_location(g);
 }
 
 uint turned_left(uint x, int by)

@@ -36,7 +36,8 @@ Geo geo_of_texel(uint i)
 Geo geo_of_point(uint i)
 {
     vec4 position = asked[3u * i], normal = asked[3u * i + 1u], wo = asked[3u * i + 2u];
-    return Geo(BVH_NONE, 0u, vec2(normal.w, wo.w), position.xyz, normal.xyz, normal.xyz, wo.xyz, false, position.w, u_rays,
+    vec2 bary = vec2(wo.w, 1.0 - normal.w - wo.w);  // of which Parametric makes u and v
+    return Geo(BVH_NONE, 0u, bary, position.xyz, normal.xyz, normal.xyz, wo.xyz, false, position.w, u_rays,
                0u, 0u, vec2(0.0), vec2(0.0));
 }
 

@@ -45,6 +45,24 @@ def asks_for_rays(graph: Graph) -> bool:
     return any(node.kind == "ShaderNodeLightPath" for node in nodes_of(graph))
 
 
+def of_lamp(graph: Graph) -> Graph:
+    """The graph of a lamp with Parametric, which lamps have, for UV coordinates, which are the same there."""
+
+    def replaced(nodes: tuple[Node, ...]) -> tuple[Node, ...]:
+        last = len(nodes)
+        uv = {(i, "UV") for i, n in enumerate(nodes) if n.kind in ("ShaderNodeTexCoord", "ShaderNodeUVMap")}
+
+        def linked(value: Any) -> Any:
+            is_uv = isinstance(value, Link) and (value.node, value.output) in uv
+            return Link(last, "Parametric") if is_uv else value
+
+        made = (replace(n, inputs={name: linked(value) for name, value in n.inputs.items()}) for n in nodes)
+        return (*made, Node("ShaderNodeNewGeometry", name="Parametric"))
+
+    groups = {name: replace(group, nodes=replaced(group.nodes)) for name, group in graph.groups.items()}
+    return replace(graph, nodes=replaced(graph.nodes), groups=groups)
+
+
 def without_falloff(graph: Graph, warn: Callable[[str], object]) -> tuple[Graph, Falloff]:
     """The graph with each Light Falloff node's strength at its outputs, and the falloff of the first that is used."""
     found = dict.fromkeys(_falloffs(graph))

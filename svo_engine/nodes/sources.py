@@ -16,7 +16,7 @@ from .closures import Leaf, Weighted, leaves
 from .compile import One
 from .emit import Writer
 from .expr import Constant, Expr
-from .rays import CAMERA, LAMP, LIGHT, Falloff, asks_for_rays, seen_by, without_falloff
+from .rays import CAMERA, LAMP, LIGHT, Falloff, asks_for_rays, of_lamp, seen_by, without_falloff
 from .traits import traits_of
 
 MOST_REMEMBERED = 256
@@ -112,7 +112,7 @@ def _world_trees(graph: Graph) -> WorldTrees:
 def _lamp_tree(graph: Graph) -> LampTree:
     notes: dict[str, None] = {}
     straight, falloff = without_falloff(graph, notes.setdefault)
-    shine = _shine(seen_by(straight, LAMP))
+    shine = _shine(of_lamp(seen_by(straight, LAMP)))
     return LampTree(replace(shine, notes=(*notes, *shine.notes)), falloff)
 
 

@@ -60,7 +60,7 @@ def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, tab
             view = None if camera is None else make_view(camera)
             given = {**placing.geometry, **surfaces.materials, **shading.read,
                      **view_uniforms(view, placing.centre_ws), "Values": trees.values, "u_albedo": table.table,
-                     "u_centre": placing.centre_ws}
+                     "u_centre": placing.centre_ws, "u_place": np.eye(4)}
             brightest = _evaluate(device, scratch, trees, texels, {**common, "u_n_work": placing.n_work}, given,
                                   n_rows, n_cells, cell)
             if emits.any():

@@ -117,12 +117,14 @@ def light_of_image(device: Device, tree: One, images: tuple[Image, ...], size: t
     return light.reshape(size[1], size[0], 3)
 
 
-def light_of_points(device: Device, tree: One, images: tuple[Image, ...], points: np.ndarray, rays: int) -> np.ndarray:
+def light_of_points(device: Device, tree: One, images: tuple[Image, ...], points: np.ndarray, rays: int,
+                    place: np.ndarray | None = None) -> np.ndarray:
     """What the tree gives at points, (n, 3) f4.
 
     points  (n, 3, 4) f4: position [m] and length of the ray [m], normal and u, unit vector to the viewer and v
+    place   (4, 4) f8, world_from_object of a lamp
     """
-    return _light(device, tree, images, len(points), points, (0, 0), rays)
+    return _light(device, tree, images, len(points), points, (0, 0), rays, place)
 
 
 def points_of_world(directions: np.ndarray) -> np.ndarray:
@@ -134,7 +136,7 @@ def points_of_world(directions: np.ndarray) -> np.ndarray:
 
 
 def _light(device: Device, tree: One, images: tuple[Image, ...], n: int, points: np.ndarray, size: tuple[int, int],
-           rays: int) -> np.ndarray:
+           rays: int, place: np.ndarray | None = None) -> np.ndarray:
     values, used = values_of(tree, _finder(images))
     pass_ = source_pass(tree.text)
     device.prepare([(pass_, {})])
@@ -144,7 +146,8 @@ def _light(device: Device, tree: One, images: tuple[Image, ...], n: int, points:
         made = scope.buffer("light of a source", 16 * n)
         given: dict[str, Resource] = {
             **pictures.read, "Values": scope.buffer("values of a source", values), "Radiance": made, "u_size": size,
-            "Asked": scope.buffer("points of a source", points.astype("f4")), "u_rays": rays, "u_centre": (0, 0, 0)}
+            "Asked": scope.buffer("points of a source", points.astype("f4")), "u_rays": rays, "u_centre": (0, 0, 0),
+            "u_place": np.eye(4) if place is None else place}
         resources: Any = {name: given.get(name) for name in pass_.wanted}
         device.dispatch(pass_, n, **resources)
         light = np.empty((n, 4), "f4")

@@ -27,7 +27,8 @@ def sky(n: Reader) -> Outputs:
         n.warn(f"the sky of type {model} is not known; it is black")
         return {"Color": n.value((0.0, 0.0, 0.0))}
     function = "sky_nishita" if model == "NISHITA" else "sky_scattering"
-    color = n.call(function, direction, n.table(table_of(settings).ravel().tolist()), n.value(sun_of(settings).rotation))
+    table = n.table(table_of(settings).ravel().tolist())
+    color = n.call(function, direction, table, n.value(sun_of(settings).rotation))
     disc = disc_of(settings)
     return {"Color": n.call("sky_disc", direction, color, n.table(_numbers(disc))) if disc else color}
 
