@@ -58,7 +58,7 @@ def _of_type_b(across: np.ndarray, down: np.ndarray, strength: np.ndarray) -> Ph
     if across[0] == 0:
         across, strength = np.concatenate([-across[:0:-1], across]), np.concatenate([strength[:0:-1], strength])
     if down[0] == 0:
-        strength = np.concatenate([strength[:, :0:-1], strength], 1)
+        strength = np.concatenate([strength[:, -2::-1], strength], 1)  # not quite a mirror image, but Cycles' own
         down = np.concatenate([-down[:0:-1], down])
     across = across + 90
     return _in_radians(np.append(across, 360.0), down + 90, np.concatenate([strength, strength[:1]]))

@@ -11,11 +11,12 @@ from ..scene.graph import Graph, Link, Node
 
 FAR = 1e30  # metres: the length of a ray that leaves the scene
 
-# By output: what a camera's ray, the light that a surface gets, and what a mirror shows find
-CAMERA: Mapping[str, float] = {"Is Camera Ray": 1.0, "Ray Length": FAR}
-LIGHT: Mapping[str, float] = {"Is Diffuse Ray": 1.0, "Is Reflection Ray": 1.0, "Ray Length": FAR, "Ray Depth": 1.0,
+# By output of a Light Path: what a camera's ray finds, and the light that a surface gets, which Cycles counts as one
+# bounce more
+CAMERA: Mapping[str, float] = {"Is Camera Ray": 1.0, "Ray Length": FAR, "Ray Depth": 1.0}
+LIGHT: Mapping[str, float] = {"Is Diffuse Ray": 1.0, "Is Reflection Ray": 1.0, "Ray Length": FAR, "Ray Depth": 2.0,
                               "Diffuse Depth": 1.0}
-LAMP: Mapping[str, float] = {}
+LAMP: Mapping[str, float] = {"Ray Depth": 1.0}
 CONSTANTS = "Constants"  # a kind of node: its outputs are its settings
 
 _POWERS = {"Quadratic": "QUADRATIC", "Linear": "LINEAR", "Constant": "CONSTANT"}

@@ -14,7 +14,8 @@ from ..gpu.device import Device
 from ..gpu.passes import Pass
 from ..gpu.program import Resource
 from ..nodes.compile import One
-from ..nodes.skies.suns import PlacedSun, limb, suns_of
+from ..nodes.skies.suns import limb, points_on, suns_of
+from ..nodes.skies.tables import Disc
 from ..nodes.sources import Shine, values_of, world_trees
 from ..scene.graph import Graph
 from ..scene.layouts import CONSTANTS
@@ -37,8 +38,7 @@ def make_sky(device: Device, image: Image | None, graph: Graph | None, images: t
     """The world on the device: with its image, or, where its nodes say more than values can, those of its tree."""
     if graph is None:
         return upload_sky(device, image)
-    trees, notes = world_trees(graph), dict[str, None]()
-    suns = suns_of(graph, notes.setdefault)
+    trees, suns = world_trees(graph), suns_of(graph)
     pixels = _pixels(device, trees.light, images, _LIGHT)
     sky = upload_sky(device, None if pixels is None else Image("world", pixels))
     lamps = tuple(lamp for sun in suns if (lamp := _sun_lamp(device, trees.light, images, sun)))
@@ -46,10 +46,9 @@ def make_sky(device: Device, image: Image | None, graph: Graph | None, images: t
         seen = _pixels(device, trees.seen, images, _CAMERA)
         sky = replace(sky, seen=None if seen is None else sky_texture(sky.scope, seen),
                       seen_color=trees.seen.color)
-    if len(suns) > 1:
-        notes.setdefault("several suns light the scene, but the camera sees only the first one")
+    notes = ("World: several suns light the scene, but the camera sees only the first one",) if len(suns) > 1 else ()
     return replace(sky, suns=lamps, sun=_seen_sun(device, trees.seen, images, suns[0]) if suns else SeenSun(),
-                   notes=tuple(f"World: {note}" for note in notes))
+                   notes=notes)
 
 
 def _pixels(device: Device, shine: Shine, images: tuple[Image, ...], rays: int) -> np.ndarray | None:
@@ -69,37 +68,38 @@ def _size(device: Device, shine: Shine, images: tuple[Image, ...]) -> tuple[int,
     return width, width // 2
 
 
-def _sun_lamp(device: Device, shine: Shine, images: tuple[Image, ...], sun: PlacedSun) -> Light | None:
+def _sun_lamp(device: Device, shine: Shine, images: tuple[Image, ...], sun: Disc) -> Light | None:
     """A lamp that gives as much light as the disc; None if that is none."""
     disc, _ = _disc(device, shine, images, sun, _LIGHT)
-    r, g, b = (np.maximum(disc.mean(0), 0) * np.pi * np.sin(sun.radius) ** 2).tolist()
+    r, g, b = (np.maximum(disc.mean(0), 0) * np.pi * np.sin(sun.size / 2) ** 2).tolist()
     if max(r, g, b) <= 0:
         return None
     place = np.eye(4)
-    z = np.array(sun.axis)
+    z = sun.sun.direction
     x = np.cross((0.0, 0.0, 1.0) if abs(z[2]) < 0.9 else (1.0, 0.0, 0.0), z)
     x /= np.linalg.norm(x)
     place[:3, 0], place[:3, 1], place[:3, 2] = x, np.cross(z, x), z
-    return Light("sun of the world", "SUN", place, (r, g, b), angle=2 * sun.radius)
+    return Light("sun of the world", "SUN", place, (r, g, b), angle=sun.size)
 
 
-def _seen_sun(device: Device, shine: Shine, images: tuple[Image, ...], sun: PlacedSun) -> SeenSun:
+def _seen_sun(device: Device, shine: Shine, images: tuple[Image, ...], sun: Disc) -> SeenSun:
     """The disc's radiance as a straight line of its height, by least squares."""
     disc, share = _disc(device, shine, images, sun, _CAMERA)
-    directions, _ = sun.directions()
-    height = (np.arcsin(directions[:, 2]) - np.arcsin(sun.axis[2])) / sun.radius
+    directions, _ = points_on(sun)
+    height = (np.arcsin(directions[:, 2]) - sun.sun.elevation) / (sun.size / 2)
     is_there = np.flatnonzero(disc.any(1))
     if not len(is_there):
         return SeenSun()
     columns = limb(share)[:, None] * np.stack([np.ones_like(height), height], 1)
     middle, slope = np.linalg.lstsq(columns[is_there], disc[is_there], rcond=None)[0].tolist()
-    return SeenSun(sun.axis, sun.radius, float(np.sin(sun.disc.horizon)), tuple(middle), tuple(slope))
+    x, y, z = sun.sun.direction.tolist()
+    return SeenSun((x, y, z), sun.size / 2, float(np.sin(sun.horizon)), tuple(middle), tuple(slope))
 
 
-def _disc(device: Device, shine: Shine, images: tuple[Image, ...], sun: PlacedSun,
+def _disc(device: Device, shine: Shine, images: tuple[Image, ...], sun: Disc,
           rays: int) -> tuple[np.ndarray, np.ndarray]:
     """What the disc adds to the world's radiance at points of it, (n, 3) f8, and their shares of its radius, (n,)."""
-    directions, share = sun.directions()
+    directions, share = points_on(sun)
     if shine.color is not None:
         return np.zeros((len(share), 3)), share
     points = points_of_world(directions)

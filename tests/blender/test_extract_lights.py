@@ -88,7 +88,7 @@ def test_nodes_that_are_simple_multiply(empty):
     assert scene.warnings == ()
 
 
-def test_nodes_that_are_not_supported_are_told(empty):
+def test_nodes_that_are_not_simple_are_compiled(empty):
     nodes = Nodes(lamp("SUN", energy=1).data)
     nodes.owner.use_nodes = True
     texture = nodes.new("TexImage")
@@ -97,8 +97,7 @@ def test_nodes_that_are_not_supported_are_told(empty):
     scene = extracted()
     assert scene.lights[0].emitted == (1, 1, 1)
     assert [image.name for image in scene.images] == ["Image"]
-    assert scene.warnings == (
-        "Light 'Lamp': node 'Image Texture' (Image Texture) is not supported for Color; its effect is left out",)
+    assert scene.warnings == () and not scene.lights[0].is_exact and scene.lights[0].graph
 
 
 def test_lamp_whose_output_is_not_linked_is_dark(empty):
