@@ -11,12 +11,13 @@ from ..reader import Reader
 from ..skies.daylight import preetham
 from ..skies.tables import Disc, disc_of, sun_of, table_of
 from . import Outputs, kind
+from .textures_space import mapped
 
 
 @kind("ShaderNodeTexSky")
 def sky(n: Reader) -> Outputs:
     """The sky in the direction of a vector."""
-    direction = n.vector("Vector", n.generated)
+    direction = mapped(n, n.vector("Vector", n.generated))
     model, settings = n.setting("sky_type"), n.node.settings
     if model in ("PREETHAM", "HOSEK_WILKIE"):
         if model == "HOSEK_WILKIE":
@@ -49,18 +50,3 @@ class _Known(dict[str, Expr]):
 
     def get(self, key: str, default: Any = None) -> Any:  # noqa: ARG002 - it has all
         return self[key] if key in self else self.setdefault(key, constant(0.0))
-
-
-@kind("ShaderNodeTexEnvironment")
-def environment(n: Reader) -> Outputs:
-    """An image of all directions."""
-    if not n.setting("image"):
-        n.warn("there is no image; it is magenta")
-    interpolation = n.setting("interpolation", "Linear")
-    if interpolation in ("Cubic", "Smart"):
-        n.warn(f"interpolation '{interpolation}' is not supported here; Linear is used")
-    is_ball = n.setting("projection", "EQUIRECTANGULAR") == "MIRROR_BALL"
-    direction = n.vector("Vector", lambda: n.call("position_of_point"))
-    color = n.call("environment_mirror_ball" if is_ball else "environment_texture", direction,
-                   n.image(n.setting("image", "")), n.literal(interpolation == "Closest"))
-    return {"Color": color}
