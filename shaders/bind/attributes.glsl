@@ -75,10 +75,12 @@ mat3 inverse_of(mat3 m)
     return determinant(m) != 0.0 ? inverse(m) : mat3(0.0);
 }
 
+// 0 also of what has overflowed; squares of its parts may not overflow or vanish.
 vec3 unit_or_zero(vec3 v)
 {
-    float l = length(v);
-    return l > 0.0 ? v / l : vec3(0.0);
+    vec3 a = abs(v);
+    float largest = max(a.x, max(a.y, a.z));
+    return largest > 0.0 && largest <= 3.4e38 ? normalize(v / largest) : vec3(0.0);
 }
 
 vec3 point_to_object(Geo g, vec3 p)

@@ -2,6 +2,7 @@
 // Purpose: Normal Map, Bump, the displacements.
 
 #include "bind/attributes.glsl"
+#include "nodes/bounded.glsl"
 
 // A map of tangent space; tangents: their number.
 vec3 normal_map_tangent(Geo g, vec3 color, float strength, uint tangents)
@@ -80,23 +81,23 @@ float height_along(vec3 by, vec3 normal)
 // Along the normal; in the object's space it goes through the object's scale.
 vec3 displaced(Geo g, float height, float midlevel, float scale, vec3 normal, bool is_of_object)
 {
-    float by = (height - midlevel) * scale;
-    return is_of_object ? direction_to_world(g, normal_to_object(g, normal) * by) : normal * by;
+    float by = bounded((height - midlevel) * scale);
+    return bounded3(is_of_object ? direction_to_world(g, normal_to_object(g, normal) * by) : normal * by);
 }
 
 vec3 displaced_by_vector(Geo g, vec3 by, float midlevel, float scale, bool is_of_object)
 {
-    vec3 v = (by - midlevel) * scale;
-    return is_of_object ? direction_to_world(g, v) : v;
+    vec3 v = bounded3((by - midlevel) * scale);
+    return is_of_object ? bounded3(direction_to_world(g, v)) : v;
 }
 
 // by: along u, along the normal, along v.
 vec3 displaced_in_tangent_space(Geo g, vec3 by, float midlevel, float scale, uint tangents)
 {
-    vec3 v = (by - midlevel) * scale, n = normal_to_object(g, g.normal);
+    vec3 v = bounded3((by - midlevel) * scale), n = normal_to_object(g, g.normal);
     Attribute a = attribute_of(g, tangents);
     vec3 t = a.width > 0u ? a.value.xyz : frame_of(n)[0];
     t -= n * dot(n, t);  // g.normal does not turn where a bump looks beside g, and tangents must not lean out of its plane
     vec3 b = unit_or_zero(cross(n, t)) * (a.width > 0u ? sign(a.value.w) : 1.0);
-    return direction_to_world(g, t * v.x + n * v.y + b * v.z);
+    return bounded3(direction_to_world(g, t * v.x + n * v.y + b * v.z));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose: checkers, bricks, gradients and the magic texture as Cycles has them.
 
+#include "nodes/bounded.glsl"
 #include "nodes/hash.glsl"
 #include "nodes/texture_space.glsl"
 
@@ -112,7 +113,7 @@ int whole_turns(float x)
 // rows: the offset of every so manieth row and the number of rows, then the width of bricks in every so manieth row
 Brick texture_brick(vec3 at, vec3 color1, vec3 color2, vec3 mortar, float scale, float mortar_size, float mortar_smooth, float bias, float width, float height, float offset, float offset_rows, float squash, float squash_rows)
 {
-    vec2 p = at.xy * scale;
+    vec2 p = clamp(at.xy * scale, -1e30, 1e30);
     int row = height != 0.0 ? whole_turns(p.y / height) : 0;
     if (offset_rows >= 1.0 && squash_rows >= 1.0) {
         width *= abs(row) % int(squash_rows) != 0 ? 1.0 : squash;
@@ -125,7 +126,7 @@ Brick texture_brick(vec3 at, vec3 color1, vec3 color2, vec3 mortar, float scale,
     float share = 0.0;
     if (edge < mortar_size)
         share = mortar_smooth == 0.0 ? 1.0 : smoothstep(0.0, 1.0, (1.0 - edge / mortar_size) / mortar_smooth);
-    return Brick(mix(mix(color1, color2, tint), mortar, share), share);
+    return Brick(bounded3(mix(mix(color1, color2, tint), mortar, share)), share);
 }
 
 float white_noise(int n, vec3 at, float w)

@@ -33,14 +33,18 @@ SIZE = 16  # pixels of a card's side
 # Makes nodes in the tree of `build.Nodes` and gives the socket or node to look at
 Maker = Callable[[build.Nodes], Any]
 
+# Of the cards, as `cycles.look_down` sees them from 2 m above its near plane's 2 cm
 _POINT = """
 Geo point_of(vec2 uv)
 {
     Geo g;
-    g.normal = vec3(uv, 0.0);
-    g.first_value = 0u;
-    g.instance = 0u;
-    g.t = 1.98;  // from the near plane
+    g.position = vec3(uv, 0.0);
+    g.normal = g.normal_geometric = g.wo = vec3(0.0, 0.0, 1.0);
+    g.bary = vec2(0.3, 0.4);
+    g.dx = g.dy = vec2(0.0);
+    g.t = 1.98;
+    g.instance = g.triangle = g.rays = g.depth = g.first_value = 0u;
+    g.is_back = false;
     return g;
 }
 """
@@ -88,10 +92,10 @@ def graphs() -> list[Graph]:
 
 @contextmanager
 def coordinates_of_points() -> Iterator[None]:
-    """Let Texture Coordinate nodes read what `point_of` has put into the normal."""
+    """Let Texture Coordinate nodes read what `point_of` has put into the position."""
     known: Any = kinds()
     before = known.get("ShaderNodeTexCoord")
-    known["ShaderNodeTexCoord"] = lambda n: {"UV": as_vector(n.call("normal_of_point"))}
+    known["ShaderNodeTexCoord"] = lambda n: {"UV": as_vector(n.call("position_of_point"))}
     try:
         yield
     finally:
@@ -121,7 +125,7 @@ def by_us(session: Session, trees: Sequence[Graph], uv: np.ndarray) -> np.ndarra
     text, words, _ = compiled(trees)
     number = np.repeat(np.arange(len(trees), dtype="u4"), SIZE * SIZE)
     made = session.opened().thread.call(lambda device: evaluate(
-        device, "vec3", "tree(number, point_of(uv))", ("nodes/geometry.glsl",), text,
+        device, "vec3", "tree(number, point_of(uv))", ("nodes/point.glsl",), text,
         buffers={"Values": np.append(words, np.zeros(1, "u4"))}, number=number, uv=uv.reshape(-1, 2)))
     return made.reshape(*uv.shape[:-1], 3)
 
