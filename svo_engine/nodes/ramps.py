@@ -121,12 +121,13 @@ class Curves:
         return np.concatenate([head, self._values.ravel()]).astype("f4")
 
     def at(self, factor: float, values: np.ndarray) -> np.ndarray:
-        """What the table makes of a value for each curve."""
+        """What the table makes of a value for each curve. Outside, a single curve is level: Cycles folds it so."""
+        goes_on = self._goes_on and len(self._values) > 1
         span = self._last - self._first
         x = (values - self._first) / span if span else np.zeros_like(values)
         inside = np.clip(x, 0, 1) * (SIZE - 1)
         low = np.minimum(inside.astype(int), SIZE - 2)
         curves = np.arange(len(self._values))
         a, b = self._values[curves, low], self._values[curves, low + 1]
-        bent = a + (inside - low) * (b - a) + self._goes_on * (x - np.clip(x, 0, 1)) * (SIZE - 1) * (b - a)
+        bent = a + (inside - low) * (b - a) + goes_on * (x - np.clip(x, 0, 1)) * (SIZE - 1) * (b - a)
         return (1 - factor) * values + factor * bent

@@ -109,3 +109,12 @@ def test_curves(session):
         f"{kind} {extend} {n} {factor}": maker(kind, {name: factor, value: what}, None, bend(extend, n))
         for kind, (name, value, what) in names.items() for extend in ("EXTRAPOLATED", "HORIZONTAL") for n in range(4)
         for factor in (1.0, "y")})
+
+
+def test_curves_of_constants(session):
+    """Which both sides fold, with values beyond the ends of the curves."""
+    given = [("FloatCurve", {"Factor": 0.7, "Value": value}) for value in (2.5, -0.5, 0.3)]
+    given += [("RGBCurve", {"Fac": 0.7, "Color": (2.5, 0.1, 0.4, 1)}),
+              ("VectorCurve", {"Fac": 2.0, "Vector": (2.5, -3, 0.4)})]
+    given += [("ValToRGB", {"Fac": value}) for value in (2.5, -0.5, 0.3)]
+    check(session, {f"{kind} {one}": maker(kind, one) for kind, one in given})
