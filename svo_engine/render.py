@@ -20,7 +20,7 @@ from .needs import Needs, needs_of
 from .nodes.sources import settled, told
 from .passes.adaptive import Progress, is_done, make_progress
 from .passes.bvh import build_bvh, build_meshes
-from .passes.cache import LightCache, light_cache, link
+from .passes.cache import LightCache, draw_light, find_light, keeps_hits, light_cache, link
 from .passes.debug import make_attribute, show_surfels, show_voxels
 from .passes.denoise import read_picture
 from .passes.denoise.choice import Denoiser, make_denoiser, wanted
@@ -30,7 +30,7 @@ from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
 from .passes.lights.glow import make_glow
 from .passes.lines import draw_lines
-from .passes.octree import build_octree
+from .passes.octree import build_octree, color_surfels
 from .passes.parts import Part, Parts, make_parts
 from .passes.planes import planes_for
 from .passes.programs import all_programs, programs_for
@@ -191,11 +191,14 @@ def _lights(stage: Stage, gpu_scene: GpuScene) -> Lights:
 def _cache(stage: Stage, gpu_scene: GpuScene, tracer: Tracer, lights: Lights, settings: RenderSettings,
            n: int) -> LightCache:
     sky, world = gpu_scene.sky, gpu_scene.scene.world
-    octree = stage("octree", build_octree, *gpu_scene.matter, n)
-    links = stage("links", link, gpu_scene.placing, gpu_scene.looks, octree, tracer, lights.glow, sky, world,
-                  settings.cache_rays, settings.injection_samples)
-    return stage("cache", light_cache, gpu_scene.placing, gpu_scene.looks, links, tracer, lights, sky, world,
-                 settings.bounces)
+    placing, looks = gpu_scene.placing, gpu_scene.looks
+    n_rays, n_points = settings.cache_rays, settings.injection_samples
+    octree = stage("octree", build_octree, placing, n)
+    colors = stage("colors", color_surfels, *gpu_scene.matter, octree)
+    links = stage("links", link, placing, octree, tracer, n_rays, keeps_hits(octree, n_rays, looks.emission_unit > 0))
+    found = stage("found", find_light, placing, looks, links, lights.glow, sky, world, gpu_scene.needs.world, n_points)
+    drawn = stage("drawn", draw_light, placing, looks, octree, tracer, lights, sky, world, n_rays, n_points)
+    return stage("cache", light_cache, colors, links, found, drawn, settings.bounces)
 
 
 def _voxels(stage: Stage, gpu_scene: GpuScene, settings: RenderSettings) -> Voxels:

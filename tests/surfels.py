@@ -11,24 +11,25 @@ import numpy as np
 
 from svo_engine.gpu.device import Device
 from svo_engine.passes.bvh import build_bvh, build_meshes
-from svo_engine.passes.cache import PARTS, light_cache, link
+from svo_engine.passes.cache import PARTS, draw_light, find_light, light_cache, link
 from svo_engine.passes.lights import make_lights
 from svo_engine.passes.lights.glow import make_glow
-from svo_engine.passes.octree import Octree, build_octree
+from svo_engine.passes.octree import Colors, Octree, build_octree, color_surfels
 from svo_engine.passes.tracer import make_rest, tracer_of
 from svo_engine.passes.upload import GpuScene, upload
 from svo_engine.passes.voxelize import Grid
 from svo_engine.scene import layouts
 from svo_engine.scene.types import Scene
 
-SURFEL = layouts.dtype(layouts.SURFEL)
+SURFEL, COLORS = layouts.dtype(layouts.SURFEL), layouts.dtype(layouts.SURFEL_COLORS)
 
 
 @dataclass(frozen=True, eq=False)
 class Surfels:
-    """rows: layout SURFEL. centre_ws: (3,) f8, metres, what the positions are relative to."""
+    """rows: layout SURFEL, colors: SURFEL_COLORS. centre_ws: (3,) f8, metres, what the positions are relative to."""
 
     rows: np.ndarray
+    colors: np.ndarray
     grid: Grid
     centre_ws: np.ndarray
     n_nodes: int
@@ -59,20 +60,22 @@ def unpack_units(words: np.ndarray) -> np.ndarray:
     return n / np.linalg.norm(n, axis=1, keepdims=True)
 
 
-def read_surfels(gpu_scene: GpuScene, octree: Octree) -> Surfels:
+def read_surfels(gpu_scene: GpuScene, octree: Octree, colors: Colors) -> Surfels:
     """The surfels of an octree that exists."""
-    size = SURFEL.itemsize * octree.n_surfels
-    rows = np.frombuffer(octree.surfels.read(size) if size else b"", SURFEL)
-    return Surfels(rows, octree.grid, gpu_scene.centre_ws, octree.n_nodes, octree.scope.n_bytes)
+    rows, looks = (np.frombuffer(buffer.read(dtype.itemsize * n) if (n := octree.n_surfels) else b"", dtype)
+                   for buffer, dtype in ((octree.surfels, SURFEL), (colors.texels.buffer, COLORS)))
+    return Surfels(rows, looks, octree.grid, gpu_scene.centre_ws, octree.n_nodes, octree.n_bytes)
 
 
 def surfels_of(device: Device, scene: Scene, n: int) -> Surfels:
     """The surfels of `scene` in an octree of n^3 voxels."""
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        octree = build_octree(device, *gpu_scene.matter, n)
+        octree = build_octree(device, gpu_scene.placing, n)
         with octree.scope:
-            return read_surfels(gpu_scene, octree)
+            colors = color_surfels(device, *gpu_scene.matter, octree)
+            with colors.scope:
+                return read_surfels(gpu_scene, octree, colors)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,16 +101,19 @@ def lit_surfels(device: Device, scene: Scene, n: int = 32, rays: int = 16, point
             return result
 
         gpu_scene: GpuScene = keep(upload(device, scene))
-        octree, trees = keep(build_octree(device, *gpu_scene.matter, n)), keep(build_meshes(device, scene.meshes))
+        octree, trees = keep(build_octree(device, gpu_scene.placing, n)), keep(build_meshes(device, scene.meshes))
+        colors = keep(color_surfels(device, *gpu_scene.matter, octree))
         bvh = keep(build_bvh(device, gpu_scene.placing, trees))
         tracer = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
         placing, looks, sky, world = gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world
         glow = keep(make_glow(device, placing, looks, sky, world))
         lights = keep(make_lights(device, gpu_scene.lamps, glow))
-        links = keep(link(device, placing, looks, octree, tracer, glow, sky, world, rays, points))
-        cache = keep(light_cache(device, placing, looks, links, tracer, lights, sky, world, bounces))
-        surfels, n_bounces = read_surfels(gpu_scene, octree), cache.n_bounces()
+        links = keep(link(device, placing, octree, tracer, rays, looks.emission_unit > 0))
+        found = keep(find_light(device, placing, looks, links, glow, sky, world, gpu_scene.needs.world, points))
+        drawn = keep(draw_light(device, placing, looks, octree, tracer, lights, sky, world, rays, points))
+        cache = keep(light_cache(device, colors, links, found, drawn, bounces))
+        surfels, n_bounces = read_surfels(gpu_scene, octree, colors), cache.n_bounces()
         bits = cache.entries.read(16 * PARTS * 2 * len(surfels.rows)) if len(surfels.rows) else b""
     parts = np.frombuffer(bits, "f4").astype("f8").reshape(PARTS, len(surfels.rows), 2, 4)[..., :3]
-    sent = surfels.rows["emission"][:, None].astype("f8")
+    sent = surfels.colors["emission"][:, None].astype("f8")
     return Lit(surfels, parts[0], parts[2], parts[3 + n_bounces % 2] + sent, n_bounces, bits)

@@ -53,7 +53,7 @@ def sizes(device: Device, scene: Scene, resolutions: tuple[int, ...] = RESOLUTIO
     with gpu_scene.scope:
         for n in resolutions:
             try:
-                octree = build_octree(device, *gpu_scene.matter, n)
+                octree = build_octree(device, gpu_scene.placing, n)
             except GpuError as error:
                 yield Size(n, sentence=str(error))
                 continue

@@ -13,6 +13,8 @@ const uint STILL = 1u;     // irradiance E from what no bounce changes: the worl
 const uint INDIRECT = 2u;  // irradiance E from all but the lamps: STILL and what other surfels send
 const uint RADIANCE = 3u;  // reflected radiance L [W m^-2 sr^-1], twice: read from one, written to the other
 
+const uint MISSED = 0xfffffffeu;  // the link of a ray that meets nothing at all; of one that meets no surfel it is NOTHING
+
 uniform uint u_n_sides;
 
 // Index of a side's entry in a part.

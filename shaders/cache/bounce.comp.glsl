@@ -2,11 +2,12 @@
 // Purpose:    one more bounce: each side of each surfel gathers what the others sent out before. Double-buffered, so that
 //             the order of invocations does not matter. Once a sweep has changed nothing, those after it end at once.
 // Formula:    E = E_still + pi / N sum L(w_i), w_i distributed as cos; L' = rho / pi (E_lamps + E)
-// In:         Surfels, Links, Cache: RADIANCE of the sweep before, LAMPS and STILL; Changes of the sweeps before
+// In:         colours of surfels, Links, Cache: RADIANCE of the sweep before, LAMPS and STILL; Changes of the sweeps before
 // Out:        Cache: the other RADIANCE, INDIRECT; Changes: largest change of any L (bits of a positive float)
 // Invocation: one side of one surfel
 
 #include "bind/cache.glsl"
+#include "bind/surfel_colors.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -35,13 +36,12 @@ void main()
     vec3 E = vec3(0.0);
     for (uint k = 0u; k < u_n_rays; k++) {
         uint link = links[k * u_n_sides + side];
-        if (link != NOTHING)
+        if (link < MISSED)
             E += PI / float(u_n_rays) * cache[cache_entry(from, link)].rgb;
     }
     E += cache[cache_entry(STILL, side)].rgb;
     cache[cache_entry(INDIRECT, side)] = vec4(E, 0.0);
-    Surfel s = surfels[side / 2u];
-    vec3 L = s.albedo / PI * (cache[cache_entry(LAMPS, side)].rgb + E);
+    vec3 L = albedo_of_surfel(side / 2u) / PI * (cache[cache_entry(LAMPS, side)].rgb + E);
     vec3 change = abs(L - cache[cache_entry(from, side)].rgb);
     cache[cache_entry(to, side)] = vec4(L, 0.0);
     atomicMax(changes[u_sweep], floatBitsToUint(max(change.r, max(change.g, change.b))));

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose:    light that is drawn on each side of each surfel, and the first radiance that it reflects.
-// Formula:    L = rho / pi E_lamps, E from u_n_points times all draws with traced shadows
-// In:         Surfels, lights, world; Draws of emitters; Found: what u_n_rays rays found
-// Out:        Cache: LAMPS, STILL, RADIANCE, zeros into INDIRECT
+// Purpose:    light that is drawn on each side of each surfel. It knows nothing of what the surfel looks like, so it stays
+//             while colours are edited.
+// Formula:    E from u_n_points times all draws with traced shadows
+// In:         Surfels, lights, world; Draws of emitters
+// Out:        Drawn: E of lamps, and after those of all sides E of what shines besides
 // Invocation: one side of one surfel
 
 #include "bind/lights.glsl"
 #include "cache/side.glsl"
 
-layout(std430) readonly buffer Found { vec4 found_light[]; };
+layout(std430) writeonly buffer Drawn { vec4 drawn[]; };
 layout(std430) readonly buffer Draws { LightDraw draws[]; };  // u_n_points times u_n_emitter_draws a side
 
 uniform uint u_first;
@@ -45,9 +46,6 @@ void main()
         else
             E_still += NoL * draw.E_perp * balance(float(u_n_points) * draw.pdf, float(u_n_rays) * NoL / PI);
     }
-    E /= float(u_n_points);
-    cache[cache_entry(LAMPS, side)] = vec4(E, 0.0);
-    cache[cache_entry(STILL, side)] = vec4(found_light[side].rgb + E_still / float(u_n_points), 0.0);
-    cache[cache_entry(INDIRECT, side)] = vec4(0.0);
-    cache[cache_entry(RADIANCE, side)] = vec4(surfels[side / 2u].albedo / PI * E, 0.0);
+    drawn[side] = vec4(E / float(u_n_points), 0.0);
+    drawn[u_n_sides + side] = vec4(E_still / float(u_n_points), 0.0);
 }

@@ -9,6 +9,7 @@
 #include "bind/cache.glsl"
 #include "bind/film.glsl"
 #include "bind/pixels.glsl"
+#include "bind/surfel_colors.glsl"
 #include "bind/wave.glsl"
 
 uniform bool u_show_albedo;       // rho instead of L, each side in a shade of it, so that surfels can be told apart
@@ -20,11 +21,11 @@ layout(rgba32f) uniform image2DArray u_film;
 
 vec3 shown(uint side)
 {
-    Surfel s = surfels[side / 2u];
+    vec3 albedo = albedo_of_surfel(side / 2u);
     if (u_show_albedo)
-        return s.albedo * mix(DARKEST_SHADE, 1.0, float(hash(side) >> 8u) / 16777216.0);
+        return albedo * mix(DARKEST_SHADE, 1.0, float(hash(side) >> 8u) / 16777216.0);
     vec3 E = cache[cache_entry(LAMPS, side)].rgb + cache[cache_entry(INDIRECT, side)].rgb;
-    return s.emission + s.albedo / PI * E;
+    return emission_of_surfel(side / 2u) + albedo / PI * E;
 }
 
 void main()

@@ -10,6 +10,7 @@
 #include "bind/cache.glsl"
 #include "bind/geometry.glsl"
 #include "bind/lights.glsl"
+#include "bind/surfel_colors.glsl"
 #include "bind/wave.glsl"
 
 const float CLOSE = 8.0;  // voxels up to which a diffuse ray sees all that it meets lit exactly
@@ -47,7 +48,7 @@ Place end_of(Crossing c, Way way, uint seed, out vec3 L)
     uint side = cache_side(way.o + c.t * way.d, normal_of(c.instance, c.triangle), way.d);
     if (side == NOTHING)
         return at;
-    vec3 reflected = surfels[side / 2u].albedo / PI;
+    vec3 reflected = albedo_of_surfel(side / 2u) / PI;
     L = reflected * cache[cache_entry(INDIRECT, side)].rgb;
     if (u_n_tree_draws == 0 && c.t * u_voxels_per_metre > CLOSE) {
         L += reflected * cache[cache_entry(LAMPS, side)].rgb;

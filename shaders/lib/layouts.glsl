@@ -169,10 +169,14 @@ struct Voxel {
 struct Surfel {
     vec3 position;
     uint normal;
-    vec3 albedo;
     uint voxel;
-    vec3 emission;
     uint outer;
+    uint area;
+};
+
+struct SurfelColors {
+    vec3 albedo;
+    vec3 emission;
 };
 
 struct BvhNode {

@@ -21,11 +21,12 @@ void visit(Strip strip, ivec3 cell)
         return;
     uint at = (voxel_first[address.x] + uint(bitCount(word & (bit - 1u)))) * uint(u_n_sums);
     Part part = part_of(strip, cell);
-    add(at, part.weight);
-    add(at + 1u, part.weight * part.albedo);
-    add(at + 4u, part.weight * turned_back(part.normal, strip.shape.axis));
-    add(at + 7u, part.area * abs(part.normal.z) * part.alpha);
+    Piece piece = part.piece;
+    add(at, piece.weight);
+    add(at + 1u, piece.weight * part.albedo);
+    add(at + 4u, piece.weight * turned_back(piece.normal, strip.shape.axis));
+    add(at + 7u, piece.area * abs(piece.normal.z) * part.alpha);
     sums[at + 8u] = uint(voxel.x | voxel.y << 10 | voxel.z << 20);  // the same from every writer
     if (u_emission_unit > 0.0)
-        add(at + 9u, part.weight * part.emission / u_emission_unit);
+        add(at + 9u, piece.weight * part.emission / u_emission_unit);
 }

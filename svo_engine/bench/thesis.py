@@ -13,7 +13,7 @@ from ..errors import GpuError
 from ..gpu.device import Device
 from ..gpu.thread import GpuThread
 from ..passes.upload import upload
-from ..passes.voxelize import cut_strips, make_grid, mark, voxelize
+from ..passes.voxelize import cut_strips, make_grid, mark, voxelize, work_of
 from ..render import Session
 from ..scene.types import Scene
 from .core import Shooter
@@ -74,8 +74,8 @@ def occupy(device: Device, gpu_scene: Any, n: int) -> int:
     """Mark the voxels that surfaces touch; how many there are is not counted."""
     with device.scope() as scratch:
         grid = make_grid(gpu_scene.placing.extent, n)
-        work, n_strips = cut_strips(device, scratch, gpu_scene.placing, grid)
-        mark(device, scratch, work, n_strips, grid)
+        strips, n_strips = cut_strips(device, scratch, scratch, gpu_scene.placing, grid)
+        mark(device, scratch, work_of(gpu_scene.placing, grid, strips), n_strips, grid)
     return 0
 
 

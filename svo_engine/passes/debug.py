@@ -52,6 +52,6 @@ def show_voxels(device: Device, grid: Grid, values: Cube, eye: Eye, settings: Re
 def show_surfels(device: Device, cache: LightCache, eye: Eye, parts: Parts, part: Part, settings: RenderSettings,
                  film: GpuFilm) -> None:
     """Add one part of a sample to `film`: of each pixel's surface the surfel, its light or its albedo."""
-    device.dispatch(SURFELS, part.n, **cache.resources(), **eye.pixels(part), **parts.of(part, EYE),
-                    **film.layers(), u_film=film.sums,
+    device.dispatch(SURFELS, part.n, **cache.resources(), **cache.colors.resources(), **eye.pixels(part),
+                    **parts.of(part, EYE), **film.layers(), u_film=film.sums,
                     u_show_albedo=settings.view == "cache_albedo")

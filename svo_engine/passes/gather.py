@@ -51,8 +51,8 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: 
     ends = {"u_n_rays": n_rays, "u_ends": parts.planes["ends"]}
     device.dispatch(
         RAYS, part.n, tracer.constants(), **{**tracer.resources(), **gpu_scene.geometry}, **lights.resources(),
-        **gpu_scene.world(), **cache.resources(), **wave, **ends, u_n_facing=1 + needs.glass,
-        u_keeps_draws=needs.gloss, u_keeps_ends=needs.emission)
+        **gpu_scene.world(), **cache.resources(), **cache.colors.resources(), **wave, **ends,
+        u_n_facing=1 + needs.glass, u_keeps_draws=needs.gloss, u_keeps_ends=needs.emission)
     if needs.emission and n_rays:
         device.dispatch(FOUND, part.n, **gpu_scene.geometry, **gpu_scene.looks.materials, **lights.emitters(), **wave,
                         **ends)

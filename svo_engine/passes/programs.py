@@ -59,7 +59,7 @@ def programs_for(needs: Needs, settings: RenderSettings, denoiser: str, is_softw
 def all_programs(is_software: bool) -> tuple[Variant, ...]:
     """All that any frame could run, most needed first."""
     everything = [
-        *_rays(True, True), *_picture(True, False, is_software), *_picture(True, True, is_software),
+        *_rays(True, True, True), *_picture(True, False, is_software), *_picture(True, True, is_software),
         *bake.PASSES, raster.BEYOND, lines.DRAW,
         denoise.COMPOSE, planes.MEAN, adaptive.MEASURE, adaptive.DECIDE, atrous.PREPARE, atrous.ATROUS, *_voxels(),
         light.INJECT, light.MIP, gather.CONES, debug.SURFELS, debug.VOXELS, debug.ATTRIBUTE]
@@ -85,7 +85,7 @@ def _of_view(needs: Needs, settings: RenderSettings, is_software: bool) -> Itera
     if settings.method == "cones" and settings.view == "combined":
         yield from (*_voxels(), light.INJECT, light.MIP, gather.CONES, *_picture(needs.principled, True, is_software))
         return
-    yield from _rays(needs.gloss, needs.emission)
+    yield from _rays(needs.gloss, needs.emission, needs.world)
     yield from _picture(needs.principled, is_drawn or settings.view != "combined", is_software)
     if settings.view != "combined":
         yield debug.SURFELS
@@ -103,10 +103,12 @@ def _voxels() -> Iterator[Pass]:
     yield from (voxelize.MARK, voxelize.ACCUMULATE, voxelize.AVERAGE)
 
 
-def _rays(gloss: bool, emission: bool) -> Iterator[Pass]:
-    yield from (gather.RAYS, cache.LINK, cache.DIRECT, octree.ACCUMULATE)  # those that take long first
+def _rays(gloss: bool, emission: bool, world: bool) -> Iterator[Pass]:
+    yield from (gather.RAYS, cache.LINK, cache.DIRECT, octree.PAINT)  # those that take long first
     yield from (path.STEP, evaluate.PRINCIPLED) if gloss else ()
     yield from _EMITTERS if emission else ()
+    yield from (cache.SKY,) if world else ()
     yield from (path.WEIGH,) if emission and gloss else ()
     yield from (bvh.NEAREST, bvh.SURVIVE, bvh.MERGE, voxelize.COUNT, voxelize.BLOCK_SUMS, voxelize.SCAN)
-    yield from (octree.MARK_NODES, octree.MARK, octree.AVERAGE, cache.BOUNCE)
+    yield from (octree.MARK_NODES, octree.MARK, octree.ACCUMULATE, octree.AVERAGE, octree.BLEND)
+    yield from (cache.START, cache.BOUNCE)

@@ -73,7 +73,8 @@ def voxelize(device: Device, placing: Placing, looks: Looks, table: Albedo, n: i
         occupancy = scope.buffer("occupancy", n**3 // 8, clear=True)
         return Voxels(scope, grid, occupancy, scope.buffer("voxels", 0), 0)
     with device.scope() as scratch:
-        work, n_strips = cut_strips(device, scratch, placing, grid)
+        strips, n_strips = cut_strips(device, scratch, scratch, placing, grid)
+        work = work_of(placing, grid, strips)
         occupancy = mark(device, scope, work, n_strips, grid)
         firsts, n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
         n_sums = SUMS + 3 * (looks.emission_unit > 0)
@@ -86,13 +87,18 @@ def voxelize(device: Device, placing: Placing, looks: Looks, table: Albedo, n: i
     return Voxels(scope, grid, occupancy, voxels, n_voxels)
 
 
-def cut_strips(device: Device, scratch: GpuScope, placing: Placing, grid: Grid) -> tuple[Resources, int]:
-    """The resources of bind/voxel_work.glsl and the number of strips: voxelization's work, cut evenly."""
+def cut_strips(device: Device, scope: GpuScope, scratch: GpuScope, placing: Placing, grid: Grid) -> tuple[Buffer, int]:
+    """Voxelization's work, cut evenly: in `scope` the first strip of each triangle, and the number of strips."""
     n, counts = placing.n_work, scratch.buffer("strip counts", 4 * placing.n_work)
-    work = {**placing.geometry, **grid.uniforms(), "u_n_instances": placing.n_instances, "u_n_work": n}
-    device.dispatch(COUNT, n, **work, StripFirst=counts)
-    firsts = scratch.buffer("strips", 4 * n)
-    return {**work, "StripFirst": firsts}, scan(device, scratch, counts, n, firsts)
+    device.dispatch(COUNT, n, **work_of(placing, grid, counts))
+    firsts = scope.buffer("strips", 4 * n)
+    return firsts, scan(device, scratch, counts, n, firsts)
+
+
+def work_of(placing: Placing, grid: Grid, strips: Buffer) -> Resources:
+    """What bind/voxel_work.glsl reads."""
+    return {**placing.geometry, **grid.uniforms(), "u_n_instances": placing.n_instances, "u_n_work": placing.n_work,
+            "StripFirst": strips}
 
 
 def mark(device: Device, scope: GpuScope, work: Resources, n_strips: int, grid: Grid) -> Buffer:

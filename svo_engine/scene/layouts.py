@@ -71,9 +71,12 @@ VOXEL: Fields = (("emission", "vec3"), ("voxel", "uint"), ("albedo_coverage", "u
 
 # The surfaces in one voxel whose normals are widest along one axis, averaged by area. position: metres relative to the
 # grid's centre; normal: octahedral, its component along the axis positive; voxel: 10 bits an axis, above them the
-# normal's axis; outer: two halves, how many voxels the outermost surface facing front or back lies beyond position
-SURFEL: Fields = (("position", "vec3"), ("normal", "uint"), ("albedo", "vec3"), ("voxel", "uint"), ("emission", "vec3"),
-                  ("outer", "uint"))
+# normal's axis; outer: two halves, how many voxels the outermost surface facing front or back lies beyond position;
+# area: of all of them, ONE of bind/voxel_sums.glsl a voxel's face
+SURFEL: Fields = (("position", "vec3"), ("normal", "uint"), ("voxel", "uint"), ("outer", "uint"), ("area", "uint"))
+
+# What a surfel looks like, apart, for an edit of a material changes nothing else. Two texels
+SURFEL_COLORS: Fields = (("albedo", "vec3"), ("emission", "vec3"))
 
 # A node of a tree of boxes: two children, each its box and a reference: a node's index, or BVH_LEAF + a leaf's index
 BVH_NODE: Fields = (("low_a", "vec3"), ("child_a", "uint"), ("high_a", "vec3"), ("child_b", "uint"),
@@ -91,8 +94,8 @@ CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("t
 
 STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Texture": TEXTURE, "Picture": PICTURE,
            "Shown": SHOWN, "Light": LIGHT, "LightNode": LIGHT_NODE, "Emitter": EMITTER, "Voxel": VOXEL,
-           "Surfel": SURFEL, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE,
-           "Cluster": CLUSTER}
+           "Surfel": SURFEL, "SurfelColors": SURFEL_COLORS, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE,
+           "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "ATTRIBUTE_POINT": 1, "ATTRIBUTE_FACE": 2, "ATTRIBUTE_CORNER": 3, "ATTRIBUTE_INSTANCE": 4,

@@ -17,7 +17,7 @@ from tests.surfels import Lit, lit_surfels
 
 N = 32
 UNIT = 1e-4  # octahedral normals: shaders/lib/math.glsl
-MAX_ALBEDO = 0.9999  # shaders/octree/average.comp.glsl
+MAX_ALBEDO = 0.9999  # shaders/octree/blend.comp.glsl
 TOP, BOTTOM = 0, 1  # sides of a level surfel
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from svo_engine.errors import GpuError
 from svo_engine.gpu import device as device_module
-from svo_engine.passes.octree import AVERAGE, build_octree
+from svo_engine.passes.octree import AVERAGE, BLEND, SUMS, build_octree, color_surfels
 from svo_engine.passes.upload import upload
 from svo_engine.passes.voxelize import make_grid
 from svo_engine.scene.meshes import make_mesh
@@ -20,7 +20,7 @@ from tests.compute import evaluate
 from tests.on_gpu import film_of
 from tests.oracle import slow_voxels
 from tests.rays import RAYS, TURN
-from tests.surfels import SURFEL, Surfels, surfels_of, unpack_units
+from tests.surfels import COLORS, SURFEL, Surfels, surfels_of, unpack_units
 from tools import memory
 
 N = 32
@@ -28,6 +28,7 @@ TOUCH = 1e-4  # voxels: shaders/lib/triangle_box.glsl
 ROUNDING = 2e-5  # voxels: a few units in the last place of coordinates up to 32, in f4
 UNIT = 1e-4  # octahedral normals: shaders/lib/math.glsl
 NOTHING = 0xFFFFFFFF
+EACH = SURFEL.itemsize + COLORS.itemsize  # bytes
 
 RED_HOT = Material("Hot", (0.9, 0.2, 0.1), emission=(5.0, 2.5, 0.0), specular_level=0)
 GLASS = Material("Glass", (0.5, 1.0, 0.25), transmission=0.5, emission=(0.0, 0.0, 1.25), specular_level=0)
@@ -124,14 +125,14 @@ def lookups(device, scene, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """What find_surfel says of cells (k, 3) i4, (k, 3) u4 for the three axes, and the keys of all surfels."""
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        octree = build_octree(device, *gpu_scene.matter, N)
+        octree = build_octree(device, gpu_scene.placing, N)
         with octree.scope:
             uniforms = {**octree.resources()}
             buffers = {"Octree": uniforms.pop("Octree")}
             found = evaluate(device, "uvec3", "uvec3(find_surfel(c, 0), find_surfel(c, 1), find_surfel(c, 2))",
                              ("bind/octree.glsl",), buffers=buffers, uniforms=uniforms, c=cells)
             rows = np.frombuffer(octree.surfels.read(SURFEL.itemsize * octree.n_surfels), SURFEL)
-            return found, Surfels(rows, octree.grid, gpu_scene.centre_ws, octree.n_nodes, 0).keys
+            return found, Surfels(rows, rows, octree.grid, gpu_scene.centre_ws, octree.n_nodes, 0).keys
 
 
 def test_lookups_find_each_surfel_and_nothing_else(device):
@@ -169,7 +170,7 @@ def test_means_are_weighted_by_exact_areas(device):
     scene = random_scene(3)
     surfels = surfels_of(device, scene, N)
     means, n_checked = means_of(*in_voxels(scene, surfels)), 0
-    for row, key, normal in zip(surfels.rows, surfels.keys.tolist(), surfels.normals, strict=True):
+    for row, key, normal in zip(surfels.colors, surfels.keys.tolist(), surfels.normals, strict=True):
         area, count, mean = means[tuple(key)]
         error = 2 * count * 1.3e-4 / max(area, 1e-9)
         if error > 0.01:
@@ -189,7 +190,7 @@ def test_touches_keep_the_colour_and_the_normal_of_their_surface(device):
     surfels = surfels_of(device, scene, N)
     means = means_of(*in_voxels(scene, surfels))
     n_lone = 0
-    for row, key, normal in zip(surfels.rows, surfels.keys.tolist(), surfels.normals, strict=True):
+    for row, key, normal in zip(surfels.colors, surfels.keys.tolist(), surfels.normals, strict=True):
         area, count, mean = means[tuple(key)]
         assert np.allclose(row["albedo"], 0.8, atol=1 / 64)
         if count == 1 and 0 < area < 2**-13:
@@ -202,12 +203,13 @@ def test_a_surfel_to_which_nothing_was_added_is_black(device):
     """Passes that are compiled apart may round a mere touch differently: marked by one, not found by another."""
     grid = make_grid(2.0, N)
     with device.scope() as scope:
-        surfels = scope.buffer("surfels", SURFEL.itemsize)
-        device.dispatch(AVERAGE, 1, u_n_sums=13, Sums=scope.buffer("sums", 4 * 13, clear=True), Surfels=surfels,
-                        **grid.uniforms(), u_emission_unit=0.0)
-        row = np.frombuffer(surfels.read(), SURFEL)
+        surfels, looks = scope.buffer("surfels", SURFEL.itemsize), scope.buffer("colours", COLORS.itemsize)
+        sums = {"Sums": scope.buffer("sums", 4 * SUMS, clear=True), "u_n_sums": SUMS, "u_emission_unit": 0.0}
+        device.dispatch(AVERAGE, 1, Surfels=surfels, **grid.uniforms(), **sums)
+        device.dispatch(BLEND, 1, Surfels=surfels, Colors=looks, **sums)
+        row, color = np.frombuffer(surfels.read(), SURFEL), np.frombuffer(looks.read(), COLORS)
     assert np.allclose(unpack_units(row["normal"]), (0, 0, 1))
-    assert not row["albedo"].any() and not row["emission"].any()
+    assert not color["albedo"].any() and not color["emission"].any()
     assert np.allclose(row["position"], grid.low)
 
 
@@ -242,7 +244,7 @@ def test_two_faces_of_a_sheet_do_not_cancel(device):
     down = scenes.Thing(scenes.quad("Down", (-1, -1, 0), (0, 2, 0), (2, 0, 0)), scenes.GREEN)
     surfels = surfels_of(device, scenes.scene(up, down), N)
     assert np.allclose(surfels.normals, (0, 0, 1), atol=UNIT)
-    assert np.allclose(surfels.rows["albedo"], (0.45, 0.45, 0.1), atol=1e-3)
+    assert np.allclose(surfels.colors["albedo"], (0.45, 0.45, 0.1), atol=1e-3)
 
 
 @pytest.mark.parametrize("tilt", [0.0, 0.4])
@@ -265,12 +267,12 @@ def test_how_far_out_the_faces_of_a_board_lie(device, tilt):
     assert np.abs(lone[:, 1]).max() == 0 and np.abs(lone[:, 0]).max() < 0.01
 
 
-def bits_of(device, scene, n=N) -> tuple[bytes, bytes]:
+def bits_of(device, scene, n=N) -> tuple[bytes, bytes, bytes]:
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        octree = build_octree(device, *gpu_scene.matter, n)
-        with octree.scope:
-            return octree.words.read(), octree.surfels.read()
+        octree = build_octree(device, gpu_scene.placing, n)
+        with octree.scope, (colors := color_surfels(device, *gpu_scene.matter, octree)).scope:
+            return octree.words.read(), octree.surfels.read(), colors.texels.buffer.read()
 
 
 def test_octrees_are_the_same_bits_however_the_work_is_cut(device, monkeypatch):
@@ -292,13 +294,13 @@ def test_memory_grows_with_the_surface(device):
     small, large = (surfels_of(device, scene, n) for n in (64, 256))
     assert 14 < len(large.rows) / len(small.rows) < 18
     assert 14 < large.n_bytes / small.n_bytes < 18
-    assert large.n_bytes < 0.03 * 256**3 * SURFEL.itemsize
+    assert large.n_bytes < 0.03 * 256**3 * EACH
 
 
 def test_the_page_of_sizes_has_a_row_for_each_resolution(device, monkeypatch):
     small, large = memory.sizes(device, scenes.cornell(), (32, 64))
-    assert small.n_dense_bytes == 3 * 32**3 * SURFEL.itemsize
-    assert SURFEL.itemsize * small.n_surfels < small.n_bytes < small.n_dense_bytes / 10
+    assert small.n_dense_bytes == 3 * 32**3 * EACH
+    assert EACH * small.n_surfels < small.n_bytes < small.n_dense_bytes / 10
     head, row = memory.lines([small, large])
     assert head.startswith(f"| 32 | {small.n_nodes:,} | {small.n_surfels:,} |") and head.endswith("|  |")
     assert 1.9 < float(row.split("|")[-2]) < 2.4
@@ -316,7 +318,7 @@ def test_surfels_that_do_not_fit_are_an_error_that_names_them(device, monkeypatc
     monkeypatch.setattr(device, "limits", {**device.limits, "GL_MAX_SHADER_STORAGE_BLOCK_SIZE": 100_000})
     gpu_scene = upload(device, scenes.cornell())
     with gpu_scene.scope, pytest.raises(GpuError, match=r"'surfel sums' .*MiB"):
-        build_octree(device, *gpu_scene.matter, N)
+        build_octree(device, gpu_scene.placing, N)
 
 
 def test_the_frame_counts_nodes_and_surfels(session):

@@ -6,6 +6,7 @@
 // Invocation: one point
 
 #include "bind/environment.glsl"
+#include "bind/surfel_colors.glsl"
 #include "bind/trace.glsl"
 #include "bind/vertices.glsl"
 #include "../tools/voxel_rays/trace_voxels.glsl"
@@ -26,8 +27,8 @@ uniform uint u_round;  // another number gives other directions
 
 vec3 side_radiance(uint side)
 {
-    Surfel s = surfels[side / 2u];
-    return s.emission + s.albedo / PI * (cache[cache_entry(LAMPS, side)].rgb + cache[cache_entry(INDIRECT, side)].rgb);
+    vec3 E = cache[cache_entry(LAMPS, side)].rgb + cache[cache_entry(INDIRECT, side)].rgb;
+    return emission_of_surfel(side / 2u) + albedo_of_surfel(side / 2u) / PI * E;
 }
 
 vec3 exact(vec3 o, vec3 d, float t_max, uint seed, out float t)
