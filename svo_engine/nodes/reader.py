@@ -103,10 +103,10 @@ class Reader:
         return self._made(fed)
 
     def _made(self, fed: Any) -> Expr:
-        """A socket's constant as an expression: of four numbers the first three, a colour."""
+        """A socket's constant as an expression: of four numbers the first three, a colour; of two a vector in a plane."""
         if isinstance(fed, Expr):
             return fed
         if isinstance(fed, (tuple, list)):
-            made = constant(tuple(fed)[:3])
-            return as_vector(made) if len(fed) == 3 else made
+            made = constant((*fed, 0.0)[:3])
+            return made if len(fed) > 3 else as_vector(made)
         return constant(fed if isinstance(fed, (int, float)) else 0.0)

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import bpy
+import pytest
+
 from tests.nodes.makers import check, maker, modes
 
 
@@ -75,3 +78,14 @@ def test_normal(session):
 def test_xyz(session):
     parts = {output: maker("SeparateXYZ", {"Vector": "a"}, output) for output in "XYZ"}
     check(session, {**parts, "combined": maker("CombineXYZ", {"X": "x", "Y": 0.4, "Z": "y"})})
+
+
+def test_radial_tiling(session):
+    if not hasattr(bpy.types, "ShaderNodeRadialTiling"):
+        pytest.skip("this Blender has no such node")
+    given = [(sides, roundness) for sides in (3, 5) for roundness in (0, 0.3, 1)] + [(2, 0), (2, 1), (4.6, 0), (2.3, 0)]
+    outputs = "Segment Coordinates", "Segment ID", "Segment Width", "Segment Rotation"
+    check(session, {
+        f"{output} {sides} {roundness} {normalize}": maker(
+            "RadialTiling", {"Vector": "a", "Sides": sides, "Roundness": roundness}, output, normalize=normalize)
+        for sides, roundness in given for normalize in (False, True) for output in outputs})
