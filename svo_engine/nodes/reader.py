@@ -103,7 +103,7 @@ class Reader:
         return self._made(fed)
 
     def _made(self, fed: Any) -> Expr:
-        """A socket's constant as an expression: of four numbers the first three, a colour; of two a vector in a plane."""
+        """A socket's constant as an expression: of four numbers the first three, a colour; of two a flat vector."""
         if isinstance(fed, Expr):
             return fed
         if isinstance(fed, (tuple, list)):
