@@ -34,8 +34,8 @@ LIFT, RADIUS = 0.51, 0.42  # of a ball's middle above its foot; metres
 HEAD = """# Shader balls
 
 `sample_blends/shader_balls.blend`, twenty-four node trees, at {width}x{height} and {samples} samples beside Cycles at
-{reference}: relMSE and bias of each ball's own pixels, the noise of both included. Median {median:.2g}; {right} of {n}
-at most 0.001. Ours: {device}. `python -m tools.balls` writes this page.
+{reference} with its denoiser: relMSE and bias of each ball's own pixels, the noise of both included. Median
+{median:.2g}; {right} of {n} at most 0.001. Ours: {device}. `python -m tools.balls` writes this page.
 
 ![Ours above, Cycles below](../images/shader_balls.jpg)
 
@@ -49,10 +49,13 @@ def main() -> int:
     parser = argparse.ArgumentParser("tools.balls", description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--width", type=int, default=320, metavar="PIXELS")
     parser.add_argument("--samples", type=int, default=64, metavar="N", help="of ours")
-    parser.add_argument("--reference-samples", type=int, default=768, metavar="N", help="of Cycles, if none is kept")
+    parser.add_argument("--reference-samples", type=int, default=256, metavar="N", help="of Cycles, if none is kept")
+    parser.add_argument("--only-reference", action="store_true", help="render that and end")
     options = parser.parse_args()
     size = options.width, options.width * 3 // 4
     reference = _reference(size, options.reference_samples)
+    if options.only_reference:
+        return 0
     from svo_engine.blender.cli import extract_scene
 
     scene, session = extract_scene(SAMPLE, None), Session()
@@ -78,7 +81,7 @@ def _reference(size: tuple[int, int], samples: int) -> np.ndarray:
 
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLE), load_ui=False)
     scene = bpy.context.scene
-    scene.cycles.samples, scene.render.resolution_percentage = samples, 100
+    scene.cycles.samples, scene.cycles.use_denoising, scene.render.resolution_percentage = samples, True, 100
     scene.render.resolution_x, scene.render.resolution_y = size
     scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
     with tempfile.TemporaryDirectory() as folder:

@@ -124,6 +124,21 @@ def test_hidden_colours_count_and_hidden_vectors_do_not(empty):
     assert by_name(graph, "Layer Weight").inputs["Normal"] is None
 
 
+@pytest.mark.parametrize(("kind", "expected"), [("Vector", None), ("Float", 0.25), ("Color", (1, 0, 0, 1))])
+def test_hidden_inputs_of_groups(empty, kind, expected):
+    """Assets have a hidden normal that is linked where somebody wants another one."""
+    tree = bpy.data.node_groups.new("Asset", "ShaderNodeTree")
+    made = tree.interface.new_socket("In", in_out="INPUT", socket_type=f"NodeSocket{kind}")
+    tree.interface.new_socket("Out", in_out="OUTPUT", socket_type="NodeSocketColor")
+    made.hide_value = True
+    nodes = material()
+    shown = nodes.new("Group")
+    shown.node_tree = tree
+    shown.inputs[0].default_value = expected or (0, 0, 0)
+    nodes.show(nodes.new("Emission", Color=shown))
+    assert list(by_name(graph_of(nodes), "Group").inputs.values()) == [expected]
+
+
 @pytest.mark.skipif(not hasattr(bpy.types.Material, "inline_shader_nodes"), reason="Blender 5 brought it")
 def test_loops_are_as_blender_unrolls_them(empty):
     nodes = material()

@@ -155,8 +155,8 @@ def _reached(feeds: _Feeds, ends: Iterable[Any]) -> set[int]:
 
 
 def _inputs(node: Any, feeds: _Feeds, place: dict[int, int]) -> dict[str, Plain]:
-    """What feeds each input. A hidden value is that of a vector which stands for a normal or for coordinates, but for
-    colours, and groups' own inputs: there it counts."""
+    """What feeds each input. A hidden vector stands for a normal or for coordinates; hidden colours count, and hidden
+    numbers of groups."""
     fed, is_group = feeds.get(node.as_pointer(), {}), node.bl_idname == "ShaderNodeGroup"
     made: dict[str, Plain] = {}
     for socket in node.inputs:
@@ -166,7 +166,8 @@ def _inputs(node: Any, feeds: _Feeds, place: dict[int, int]) -> dict[str, Plain]
         if before is not None and (number := place.get(before[0].as_pointer())) is not None:
             made[identifier] = Link(number, before[1])
         else:
-            has_constant = not socket.hide_value or socket.type == "RGBA" or is_group
+            kind = socket.type
+            has_constant = not socket.hide_value or kind == "RGBA" or (is_group and kind != "VECTOR")
             made[identifier] = _plain(getattr(socket, "default_value", None)) if has_constant else None
     return made
 
