@@ -30,7 +30,8 @@ struct Hit {
     float weight;
 };
 
-// What a hit looks like: no trace of a material is left in it.
+// What a hit looks like: no trace of a material is left in it. POINT_TURNED: light shines through from behind, so both normals
+// point away from wo. POINT_HOLDOUT: a hole in the picture. POINT_SHAPED: the ground is none of Lambert's, see bind/shapes.glsl.
 struct Point {
     uint kind;      // bits POINT_*
     vec3 position;

@@ -7,17 +7,9 @@
 #include "bind/lobes.glsl"
 #include "bind/principled.glsl"
 #include "evaluate/hit.glsl"
+#include "evaluate/shaded.glsl"
 
 uniform bool u_takes_all;   // whether it fills in all points but those of trees
-
-const float ROUGH = 0.25;   // alpha from which a met surface mirrors what arrives from everywhere, not what one ray finds
-
-uint kind_of(Bsdf b)
-{
-    bool has_lobes = b.glossy + b.transmission != vec3(0.0), has_glass = b.glass != vec3(0.0);
-    return POINT_SURFACE | (has_lobes ? POINT_LOBES : 0u) | (b.alpha <= SMOOTH ? POINT_SMOOTH : 0u)
-         | (has_glass && is_bending(b) ? POINT_BENDING : 0u) | (b.alpha >= ROUGH && !has_glass ? POINT_ROUGH : 0u);
-}
 
 bool is_ours(uint slot)
 {
@@ -42,13 +34,8 @@ void evaluate(uint slot)
     vec3 normal = facing(mapped_normal(m, seen.uv, seen.surface.normal, seen.tangent, seen.bitangent), wo);
     Shading shading = shading_at(m, seen.uv);
     Bsdf b = principled(m, shading, dot(normal, wo), seen.is_back);
-    vec3 albedo = b.glossy + b.transmission;
     Point p = point_of(hit, seen.surface, normal);
     p.diffuse = b.diffuse;
     p.emission = shading.emission;
-    p.kind = kind_of(b);
-    p.chance = min(2.0 * max(albedo.r, max(albedo.g, albedo.b)), 1.0);
-    put_point(u_set, slot, p);
-    if (is_kind(p, POINT_LOBES))
-        put_lobes(u_set, slot, wo, b);
+    put_shaded(slot, p, b);
 }

@@ -7,7 +7,7 @@
 
 #include "bind/emitters.glsl"
 #include "bind/looks.glsl"
-#include "bind/wave.glsl"
+#include "bind/shapes.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -33,7 +33,7 @@ void main()
             continue;
         vec3 local = cosine_direction(sobol_point(p.number * uint(u_n_rays) + uint(k), p.seed));
         float pdf = float(u_n_rays) * local.z / PI;
-        found += L * (u_n_emitter_draws > 0 ? emitter_weight(p.position, p.normal, frame * local, pdf, hit.x, hit.y) : 1.0);
+        found += ground_factor(p, slot, frame * local) * L * (u_n_emitter_draws > 0 ? emitter_weight(p.position, p.normal, frame * local, pdf, hit.x, hit.y) : 1.0);
     }
     if (found == vec3(0.0))
         return;

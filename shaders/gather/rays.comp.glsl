@@ -2,7 +2,8 @@
 // Purpose:    the light that arrives at what the eye sees, by rays with exact hits: lamps, emitters and the world drawn, with
 //             traced shadows; diffuse rays, distributed as the cosine, end in surfels of the light cache. What draws and rays
 //             both find is weighed by the balance heuristic [Veach95].
-// Formula:    E = sum_k E_k max(cos_k, 0) w_k + pi / N sum L(w_i), L = rho / pi (E_lamps + E_indirect)
+// Formula:    E = sum_k E_k max(cos_k, 0) w_k + pi / N sum L(w_i), L = rho / pi (E_lamps + E_indirect); each times f pi / rho
+//             where the ground is none of Lambert's
 // In:         Wave: points, draws of emitters; light cache, BVH, triangles, lights, world
 // Out:        Wave: arrivals; what rays met, if anything shines; draws with shadows, if reflections need them
 // Invocation: one pixel
@@ -10,8 +11,8 @@
 #include "bind/cache.glsl"
 #include "bind/geometry.glsl"
 #include "bind/lights.glsl"
+#include "bind/shapes.glsl"
 #include "bind/surfel_colors.glsl"
-#include "bind/wave.glsl"
 
 const float CLOSE = 8.0;  // voxels up to which a diffuse ray sees all that it meets lit exactly
 
@@ -100,9 +101,11 @@ Place end_of_ray(Point p, int k, Way way, bool is_hit, Crossing c, uint slot, in
     vec3 L = vec3(0.0);
     if (is_hit)
         at = end_of(c, way, hash(p.seed + uint(k) + 1u), L);
-    else if (way.t_max > 0.0)
-        a.found += world_radiance(way.d, 0.0) * world_weight(way.d, float(u_n_rays) * dot(p.normal, way.d) / PI);
-    a.indirect += L;
+    vec3 share = ground_factor(p, slot, way.d);
+    if (!is_hit && way.t_max > 0.0)
+        a.found += share * world_radiance(way.d, 0.0) * world_weight(way.d, float(u_n_rays) * dot(p.normal, way.d) / PI);
+    a.indirect += share * L;
+    at.weight *= share;
     return at;
 }
 
@@ -133,6 +136,8 @@ void go_on(bool is_ray, bool is_first, int k, int i, uint slot, inout Lighting l
     if (u_keeps_draws && is_first && i < l.n_sides * n_draws())
         put_draw(uint(i), slot, draw);
     vec3 E = l.at.weight * irradiance_of(draw, i, l.at);
+    if (is_first)
+        E *= ground_factor(l.p, slot, draw.wi);
     l.sum.direct += is_first && i < n_draws() ? E : vec3(0.0);
     l.sum.indirect += is_first ? vec3(0.0) : E;
 }

@@ -4,22 +4,34 @@
 
 #include "lib/math.glsl"
 
-// Distribution of microfacet normals h [Walter07], alpha = roughness^2. No difference of large numbers: exact at any alpha.
+// Distribution of microfacet normals h [Walter07], alpha = roughness^2 along x and y. No difference of large numbers: exact at
+// any alpha.
+float ggx_normals(vec3 h, vec2 alpha)
+{
+    float k = h.x * h.x * (alpha.y / alpha.x) + h.y * h.y * (alpha.x / alpha.y) + alpha.x * alpha.y * h.z * h.z;
+    return alpha.x * alpha.y / (PI * k * k);
+}
+
 float ggx_normals(vec3 h, float alpha)
 {
-    float a2 = alpha * alpha, k = dot(h.xy, h.xy) + a2 * h.z * h.z;
-    return a2 / (PI * k * k);
+    return ggx_normals(h, vec2(alpha));
 }
 
 // Smith's Lambda under GGX [Heitz14]: a direction sees 1 / (1 + Lambda) of the microfacets that face it, and two
 // directions 1 / (1 + Lambda + Lambda').
+float ggx_lambda(vec3 w, vec2 alpha)
+{
+    vec2 slope = alpha * w.xy;
+    return 0.5 * (sqrt(1.0 + dot(slope, slope) / max(w.z * w.z, 1e-20)) - 1.0);
+}
+
 float ggx_lambda(vec3 w, float alpha)
 {
-    return 0.5 * (sqrt(1.0 + alpha * alpha * dot(w.xy, w.xy) / max(w.z * w.z, 1e-20)) - 1.0);
+    return ggx_lambda(w, vec2(alpha));
 }
 
 // One of the normals that wo sees [Heitz18]; their density is D max(wo.h, 0) / (wo.z (1 + Lambda(wo))).
-vec3 visible_normal(vec3 wo, float alpha, vec2 u)
+vec3 visible_normal(vec3 wo, vec2 alpha, vec2 u)
 {
     vec3 stretched = normalize(vec3(alpha * wo.xy, wo.z));
     vec2 p = disk_point(u);
@@ -28,6 +40,11 @@ vec3 visible_normal(vec3 wo, float alpha, vec2 u)
     vec3 t1 = is_upright ? vec3(1.0, 0.0, 0.0) : normalize(vec3(-stretched.y, stretched.x, 0.0));
     vec3 h = p.x * t1 + p.y * cross(stretched, t1) + sqrt(max(1.0 - dot(p, p), 0.0)) * stretched;
     return normalize(vec3(alpha * h.xy, max(h.z, 1e-6)));
+}
+
+vec3 visible_normal(vec3 wo, float alpha, vec2 u)
+{
+    return visible_normal(wo, vec2(alpha), u);
 }
 
 // Reflectance at normal incidence for an index of refraction, and the index above 1 for a reflectance.
@@ -59,11 +76,17 @@ float f_dielectric_mean(float eta)
     return eta < 1.0 ? 0.997118 + eta * (0.1014 - eta * (0.965241 + eta * 0.130607)) : (eta - 1.0) / (4.08567 + 1.00071 * eta);
 }
 
-// A curve from f0 to 1 at the place where `f` lies between the interface's own reflectance at normal incidence and 1.
-vec3 f_from(vec3 f0, float f, float eta)
+// Where between 0 and 1 a reflectance F lies that goes from the interface's own at normal incidence to 1.
+float share_of_f(float f, float eta)
 {
     float own = f0_of_ior(eta);
-    return mix(f0, vec3(1.0), clamp((f - own) / (1.0 - own), 0.0, 1.0));
+    return clamp((f - own) / (1.0 - own), 0.0, 1.0);
+}
+
+// A curve from f0 to 1 at that place.
+vec3 f_from(vec3 f0, float f, float eta)
+{
+    return mix(f0, vec3(1.0), share_of_f(f, eta));
 }
 
 // Schlick's curve less a dip towards grazing angles, whose depth `b` makes it `tint` times as bright at cos = 1/7 [Kutz21].

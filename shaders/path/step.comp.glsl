@@ -106,10 +106,10 @@ void add_draw(LightDraw draw, Draws draws, int i, Point p, Bsdf b, vec3 wo, mat3
     light.transmitted += i < draws.n_side ? vec3(0.0) : L;
 }
 
-// All that arrives at what a path met, but for lamps.
+// All that arrives at what a path along d met, but for lamps.
 vec3 bounced(Point p, vec3 d)
 {
-    uint side = cache_side(p.position, p.normal_geometric, d);
+    uint side = cache_side(p.position, p.normal_geometric, is_kind(p, POINT_TURNED) ? -d : d);
     return side == NOTHING ? vec3(0.0) : cache[cache_entry(INDIRECT, side)].rgb;
 }
 
@@ -127,6 +127,15 @@ bool arrive(Point p, uint slot, vec3 glossy, inout Path path, out vec3 ending)
     add_gloss(slot, path.is_through, u_round == 1u, path.beta * p.emission * p.weight);
     ending = path.beta / PI * (p.diffuse + (has_lobes && ends ? glossy : vec3(0.0)));
     return has_lobes && !ends && path.chance < p.chance;
+}
+
+// The frame whose first axis is the tangent.
+mat3 turned_frame(mat3 frame, float turn)
+{
+    if (turn == 0.0)
+        return frame;
+    vec2 t = vec2(cos(turn), sin(turn));
+    return mat3(t.x * frame[0] + t.y * frame[1], t.x * frame[1] - t.y * frame[0], frame[2]);
 }
 
 // Choose a way on; false if there is none.
@@ -210,7 +219,7 @@ void go_on(uint slot)
     Vertex v;
     v.p = get_point(u_set, slot);
     v.path = Path(vec3(0.0), 0.0, vec3(1.0), 0.0, hash(v.p.seed + 3u), false, v.p.t);
-    v.b = get_lobes(u_set, slot, v.wo);
+    v.b = get_lobes(u_set, slot);
     v.goes_on = is_kind(v.p, POINT_LOBES);
     v.ending = vec3(0.0);
     if (is_vertex()) {
@@ -218,8 +227,8 @@ void go_on(uint slot)
         v.path.seed = v.p.seed;
         v.goes_on = arrive(v.p, slot, v.b.glossy, v.path, v.ending);
     }
-    v.frame = frame_of(v.p.normal);
-    v.wo = v.wo * v.frame;
+    v.frame = turned_frame(frame_of(v.p.normal), v.b.turn);
+    v.wo = -get(u_set + 1u, slot).xyz * v.frame;
     v.draws = draws_of(v.p, v.goes_on, v.ending != vec3(0.0));
     v.light = DrawnLight(vec3(0.0), vec3(0.0), vec3(0.0));
     int n = v.draws.n;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    the light that leaves each pixel towards the eye, added to the film.
-// Formula:    L = Le + rho_d / pi (E_direct + E_indirect) + L_glossy + L_transmission; without a surface, the world
+// Formula:    L = Le + rho_d / pi (E_direct + E_indirect) + L_glossy + L_transmission; without a surface, the world; in a holdout, nothing
 // In:         Wave: points, lobes, arrivals, gloss; world
 // Out:        u_film: sums in the layers that are asked for, of tiles that are not done
 // Invocation: one pixel
 
 #include "bind/film.glsl"
 #include "bind/gloss.glsl"
+#include "bind/lobes.glsl"
 #include "bind/pixels.glsl"
-#include "bind/wave.glsl"
 #include "bind/world_seen.glsl"
 
 layout(local_size_x = 64) in;
@@ -90,21 +90,24 @@ void main()
         return;
     for (int layer = 0; layer < u_n_planes && u_sample == 0u; layer++)
         imageStore(u_film, ivec3(pixel, layer), vec4(0.0));
+    if (is_kind(p, POINT_HOLDOUT)) {
+        add_picture(pixel, vec4(0.0));
+        return;
+    }
     if (!is_kind(p, POINT_SURFACE)) {
         add_world(pixel);
         return;
     }
     vec3 albedo = p.emission + p.diffuse, L = p.emission + add_diffuse(pixel, p.diffuse, get_arrival(slot));
     if (u_has_lobes && is_kind(p, POINT_LOBES)) {
-        uint at = u_set + HIT_PLANES + POINT_PLANES;
-        vec3 glossy = get(at + 9u, slot).xyz, transmission = get(at + 10u, slot).xyz;
-        albedo += glossy + transmission;
-        L += add_specular(pixel, glossy, transmission, get(at, slot).w, get_gloss(slot));
+        Bsdf b = get_lobes(u_set, slot);
+        albedo += b.glossy + b.transmission;
+        L += add_specular(pixel, b.glossy, b.transmission, b.alpha.x, get_gloss(slot));
     }
     add(pixel, EMISSION, vec4(p.emission, 0.0));
     add(pixel, ALBEDO, vec4(albedo, 0.0));
     add_picture(pixel, vec4(L, 1.0));
-    add(pixel, NORMAL_DEPTH, vec4(p.normal, p.t));
+    add(pixel, NORMAL_DEPTH, vec4(is_kind(p, POINT_TURNED) ? -p.normal : p.normal, p.t));
     if (u_sample == 0u)
         add(pixel, POSITION, vec4(p.position, 1.0));
 }

@@ -60,7 +60,8 @@ def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, tab
             view = None if camera is None else make_view(camera)
             given = {**placing.geometry, **surfaces.materials, **shading.read,
                      **view_uniforms(view, placing.centre_ws), "Values": trees.values, "u_albedo": table.table,
-                     "u_centre": placing.centre_ws, "u_place": np.eye(4)}
+                     "u_centre": placing.centre_ws, "u_place": np.eye(4), "u_baked": None,
+                     "u_n_rows": 0}
             brightest = _evaluate(device, scratch, trees, texels, {**common, "u_n_work": placing.n_work}, given,
                                   n_rows, n_cells, cell)
             if emits.any():
@@ -70,7 +71,7 @@ def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, tab
     device.profiler.counts["baked bytes"] = scope.n_bytes
     read: Resources = {"u_baked": texels, "u_n_rows": n_rows}
     opacity = {**surfaces.images, "Opacities": surfaces.opacities, **read}
-    return Looks(scope, surfaces, {**surfaces.materials, **read}, opacity, surfaces.has_alpha | passes,
+    return Looks(scope, surfaces, {**surfaces.materials, **read}, read, opacity, surfaces.has_alpha | passes,
                   max(surfaces.emission_unit, brightest), means, emits)
 
 

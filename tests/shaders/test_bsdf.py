@@ -14,9 +14,18 @@ GGX, BSDF = ("lib/ggx.glsl",), ("lib/bsdf.glsl",)
 MIXED = """
 Bsdf mixed(float alpha, float eta)
 {
-    vec3 none = vec3(0.0);
-    return Bsdf(none, alpha, vec3(0.3), vec3(0.9, 0.6, 0.3), vec3(0.1), vec3(0.2), vec3(0.05), 1.5,
-                vec3(0.5), vec3(0.04), vec3(0.9, 0.5, 0.2), eta, none, none);
+    Bsdf b = no_lobes(vec2(alpha));
+    b.metal_f0 = 0.3 * vec3(0.9, 0.6, 0.3);
+    b.metal_f90 = vec3(0.3);
+    b.metal_dip = vec3(0.03);
+    b.coat_f0 = vec3(0.01);
+    b.coat_f90 = vec3(0.2);
+    b.coat_eta = 1.5;
+    b.glass_f0 = vec3(0.02);
+    b.glass_f90 = vec3(0.5);
+    b.glass_through = 0.48 * vec3(0.9, 0.5, 0.2);
+    b.glass_eta = eta;
+    return b;
 }
 Drawn drawn_from(float alpha, float eta, vec3 wo, uint i)
 {

@@ -76,7 +76,8 @@ class GpuScene:
     def of_trees(self) -> Resources:
         """All that functions of shaders/nodes can ask for, but `view_uniforms`."""
         return {**self.geometry, **self.materials, "Values": self.trees.values, **self.shading.read,
-                "u_albedo": self.table.table, "u_centre": self.centre_ws, "u_place": np.eye(4)}
+                "u_albedo": self.table.table, "u_centre": self.centre_ws, "u_place": np.eye(4),
+                **self.looks.baked}
 
     @property
     def centre_ws(self) -> np.ndarray:

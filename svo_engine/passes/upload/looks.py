@@ -18,6 +18,7 @@ class Looks:
 
     materials      what bind/looks.glsl reads
     surfaces       what all that evaluates itself reads
+    baked          what bind/baked.glsl reads
     opacity        what bind/opacity.glsl reads of materials
     has_alpha      (n_materials,) bool: whether a ray may pass through it
     emission_unit  the highest radiance that any material sends out
@@ -29,6 +30,7 @@ class Looks:
     scope: GpuScope
     surfaces: Surfaces
     materials: Resources
+    baked: Resources
     opacity: Resources
     has_alpha: np.ndarray
     emission_unit: float
