@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Purpose: the Radial Tiling node: the plane in segments around 0, bounded by a polygon with round corners, as Cycles
-//          has it for whole numbers of sides; the last segment of other numbers is rounded as if it were one of its own.
-
-#include "nodes/bounded.glsl"
-#include "nodes/math_functions.glsl"
-
-const float TURN = 6.2831855;
+// Purpose: Radial Tiling: the plane in segments around a polygon whose corners are round, with coordinates in each.
 
 struct RadialTiling {
     vec3 coordinates;
@@ -14,71 +8,106 @@ struct RadialTiling {
     float rotation;
 };
 
-// Angles from a segment's middle: of the point, of the end of the segment, of the start of its round part
-struct Segment {
-    float at;
-    float end;
+const float TILING_TAU = 6.28318530718;
+
+// Half a segment: its angle, the angle at which its corner's arc ends, how round that is, and how much larger than at the
+// other sides a unit is along it.
+struct HalfSegment {
+    float angle;
     float bevel;
+    float roundness;
+    float unit;
 };
 
-// How long the round part's curve is before it runs like a circle.
-float spline_of(Segment s, float roundness)
+HalfSegment half_segment(float angle, float roundness, float unit)
 {
-    return (1.0 - roundness) * (s.end - s.bevel);
+    return HalfSegment(angle, roundness == 0.0 ? 0.0 : angle - atan((1.0 - roundness) * tan(angle)), roundness, unit);
 }
 
-// Distance of the polygon through the point over that of the one at 1, both along the middle of the segment.
-float distance_of(Segment s, float l, float roundness)
+// How far along its side a segment reaches; height: where, 1 at the polygon.
+float reach_of(HalfSegment s, float height)
 {
-    if (abs(s.at) <= s.bevel)
-        return l * cos(s.at);
-    float center = divided(1.0 - roundness, cos(s.end)), along = center * cos(s.end - abs(s.at));
-    return divided(l, along + sqrt(max(along * along + roundness * roundness - center * center, 0.0)));
+    return height * tan(s.angle - s.bevel) + 0.5 * (1.0 - s.roundness) * s.bevel * (height + 1.0) + s.roundness * s.bevel;
 }
 
-// How far the point is along the side of that polygon.
-float parameter_of(Segment s, float l, float roundness)
+// Along a straight side, at an angle to its middle; or, in units of the segment's reach.
+float along_side(HalfSegment s, float height, float angle, bool normalizes)
 {
-    if (abs(s.at) <= s.bevel)
-        return l * sin(s.at);
-    float into = abs(s.at) - s.bevel, spline = spline_of(s, roundness), flat_part = l * cos(s.bevel);
-    float curve = into < spline ? flat_part * into + 0.5 * (1.0 - flat_part) * divided(into * into, spline)
-                                : spline * 0.5 * (flat_part - 1.0) + into;
-    return sign(s.at) * (l * sin(s.bevel) + curve);
+    float p = height * tan(angle);
+    return normalizes ? p / reach_of(s, height) : s.unit * p;
 }
 
-// The largest parameter there.
-float largest_parameter(Segment s, float l, float d, float roundness)
+// Along a corner's arc, `by` past its end, at a distance from the centre: a parabola leads from the side's measure to the arc's.
+float along_arc(HalfSegment s, float height, float distance, float by, bool normalizes)
 {
-    float rest = 0.5 * spline_of(s, roundness) + roundness * (s.end - s.bevel);
-    float straight = d * math_tangent(s.bevel) + 0.5 * d * spline_of(s, roundness) + rest;
-    float flat_part = l * cos(s.bevel);
-    float bent = l * sin(s.bevel) + 0.5 * flat_part * spline_of(s, roundness) + rest;
-    return mix(straight, bent, clamp(divided(abs(s.at) - s.bevel, s.end - s.bevel), 0.0, 1.0));
+    float e = s.angle - s.bevel, start = (1.0 - s.roundness) * s.bevel, x = distance * cos(e);
+    float p = distance * sin(e) + (by < start ? x * by + 0.5 * (1.0 - x) * by * by / start : 0.5 * start * (x - 1.0) + by);
+    float reach = distance * sin(e) + 0.5 * start * (x + 1.0) + s.roundness * s.bevel;
+    return normalizes ? p / mix(reach_of(s, height), reach, by / s.bevel) : s.unit * p;
 }
 
-RadialTiling radial_tiling(vec3 v, float n_sides, float round_share, bool normalized)
+// Distance from the origin to the far side of a circle, in the direction of an angle.
+float to_circle(float angle, vec2 center, float radius)
 {
-    float sides = clamp(n_sides, 2.0, 1e6), roundness = clamp(round_share, 0.0, 1.0), step_angle = TURN / sides;
-    vec2 p = clamp(v.xy, -1e18, 1e18);
-    float l = length_of(vec3(p, 0.0)), angle = math_arctangent2(p.y, p.x) + (p.y < 0.0 ? TURN : 0.0);
-    float id = floor(angle / step_angle), end = 0.5 * step_angle, scale = 1.0;
-    bool is_last = id >= floor(sides) && sides != floor(sides);
-    if (is_last) {
-        float whole = end;
-        end = 0.5 * (TURN - floor(sides) * step_angle);
-        scale = divided(cos(whole), cos(end));
+    float q = dot(vec2(cos(angle), sin(angle)), center);
+    return q + sqrt(max(q * q + radius * radius - dot(center, center), 0.0));
+}
+
+RadialTiling radial_tiling(vec3 at, float sides, float roundness, bool normalizes)
+{
+    if (any(isnan(at.xy)))
+        at.xy = vec2(0.0);
+    float n = sides >= 2.0 ? min(sides, 1e6) : 2.0, r = roundness >= 0.0 ? min(roundness, 1.0) : 0.0, rho = length(at.xy);
+    float turn = at.xy == vec2(0.0) ? 0.0 : atan(at.y, at.x), phi = turn + (at.y < 0.0 ? TILING_TAU : 0.0);
+    HalfSegment s = half_segment(0.5 * TILING_TAU / n, r, 1.0), last = s, outer = s;
+    float k = floor(phi / (2.0 * s.angle)), a = phi - k * 2.0 * s.angle, width = reach_of(s, 1.0);
+    // Where the number of sides is not whole, the last one is smaller, and the arcs at its ends are others
+    vec2 center = vec2(0.0);
+    float radius = 0.0, end = TILING_TAU;
+    bool is_irregular = fract(n) != 0.0;
+    if (is_irregular) {
+        float angle = 0.5 * TILING_TAU - floor(n) * s.angle;
+        last = half_segment(angle, r, cos(s.angle) / cos(angle));
+        end -= 2.0 * angle;
+        radius = r * tan(angle) / tan(0.5 * (s.angle + angle));
+        center = vec2(cos(last.bevel), -sin(last.bevel)) / cos(angle - last.bevel) + radius * vec2(-cos(angle), sin(angle));
+        vec2 start = center + radius * vec2(cos(s.angle), sin(s.angle));
+        outer.bevel = atan(start.y / start.x);
+        outer.roundness = 1.0 - tan(s.angle - outer.bevel) / tan(s.angle);
     }
-    Segment s = Segment(angle - id * step_angle - end, end, end);
-    if (roundness > 0.0)
-        s.bevel = atan((1.0 - roundness) * math_tangent(end));
-    float d = bounded(scale * distance_of(s, l, roundness)), x = bounded(scale * parameter_of(s, l, roundness));
-    float width = bounded(math_tangent(s.bevel) + spline_of(s, roundness) + roundness * (s.end - s.bevel));
-    width = sides == 2.0 && roundness == 0.0 ? 0.0 : width;
-    x = l == 0.0 ? 0.0 : x;
-    if (normalized) {
-        x = width == 0.0 ? x : divided(x, scale * largest_parameter(s, l, d / max(scale, 1e-6), roundness));
-        return RadialTiling(vec3(0.5 * x + 0.5, d, 0.0), id, width, id * step_angle + end);
+    float height, p;
+    if (!is_irregular || (phi >= outer.bevel && phi < end - outer.bevel)) {
+        bool is_next = is_irregular && (phi < s.angle || phi >= end - s.angle);
+        float away = a > s.angle ? 2.0 * s.angle - a : a;  // from the nearer end
+        if (away >= s.bevel || (is_irregular && (phi < s.bevel || phi >= end - s.bevel))) {
+            height = rho * cos(s.angle - a);
+            bool is_endless = n == 2.0 && r == 0.0;
+            width = is_endless ? 0.0 : width;
+            p = along_side(is_next ? outer : s, height, abs(s.angle - a), normalizes && !is_endless);
+        } else {
+            height = rho / to_circle(away, vec2((1.0 - r) / cos(s.angle), 0.0), r);
+            p = along_arc(s, height, rho, s.bevel - away, normalizes);
+        }
+    } else {
+        bool is_before = phi >= end - outer.bevel && phi < TILING_TAU - last.angle;
+        float m = is_before ? end - phi : turn;  // from the nearer end of the last one, negative in it
+        bool is_in = phi >= end + last.bevel && phi < TILING_TAU - last.bevel;
+        height = is_in ? rho * cos(last.angle - a) : rho / to_circle(m, center, radius);
+        if (is_in)
+            p = along_side(last, height, abs(last.angle - a), normalizes);
+        else if (m < 0.0)
+            p = along_arc(last, height, rho, last.bevel + m, normalizes);
+        else
+            p = along_arc(outer, last.unit * height, rho, outer.bevel - m, normalizes);
+        height *= last.unit;
+        if (is_in || m < 0.0) {
+            s.angle = last.angle;
+            width = tan(last.angle - last.bevel) + 0.5 * (1.0 - r) * last.bevel * (1.0 + last.unit)
+                  + last.unit * r * last.bevel;
+        }
     }
-    return RadialTiling(vec3(x, d - 1.0, 0.0), id, width, id * step_angle + end);
+    p = rho == 0.0 || isnan(p) || isinf(p) ? 0.0 : a < s.angle ? -p : p;
+    float id = floor(n * (turn / TILING_TAU + (at.y < 0.0 ? 1.0 : 0.0)));
+    return RadialTiling(vec3(normalizes ? 0.5 * p + 0.5 : p, normalizes ? height : height - 1.0, 0.0), id, width,
+                        k * TILING_TAU / n + s.angle);
 }

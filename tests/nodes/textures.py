@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import Any
 
@@ -88,7 +89,20 @@ def cells() -> Iterator[Case]:
         yield Case(f"{T}Voronoi", ("Distance", "Color"), shape, {"Scale": 1.3, "Detail": 3.0, "Roughness": 0.0})
 
 
-FAMILIES = {"patterns": patterns, "waves": waves, "noises": noises, "cells": cells}
+TILING = "ShaderNodeRadialTiling"
+TILES = ("Segment Coordinates", "Segment ID", "Segment Width", "Segment Rotation")
+
+
+def tiles() -> Iterator[Case]:
+    """Segments of polygons: whole and broken numbers of sides; two sides are never partly round, where Cycles divides
+    by what is left of zero."""
+    for normalize in (False, True):
+        for sides, roundness in itertools.product((2.0, 3.0, 5.0, 2.5, 4.3), (0.0, 0.3, 1.0)):
+            if (sides, roundness) != (2.0, 0.3):
+                yield Case(TILING, TILES, {"normalize": normalize}, {"Sides": sides, "Roundness": roundness})
+
+
+FAMILIES = {"patterns": patterns, "waves": waves, "noises": noises, "cells": cells, "tiles": tiles}
 
 HOSTILE = (0.0, -1.7, 1e6, 1e30, -1e30, 3e38, float("inf"), float("nan"))
 
@@ -123,3 +137,6 @@ def hostile(value: float) -> Iterator[Case]:
     for given in ({"Scale": value, "Distortion": 2.0}, {"Scale": 2.0, "Distortion": value}):
         yield Case(f"{T}Magic", ("Color",), {"turbulence_depth": 10}, given)
     yield Case(f"{T}Checker", ("Fac",), {}, {"Scale": value})
+    for normalize in (False, True):
+        yield Case(TILING, TILES, {"normalize": normalize}, {"Sides": value, "Roundness": 0.3})
+        yield Case(TILING, TILES, {"normalize": normalize}, {"Sides": 5.3, "Roundness": value})

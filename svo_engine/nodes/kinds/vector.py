@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from ..expr import Constant, Expr, as_vector
+from ..expr import Expr, as_vector
 from ..reader import Reader
 from . import Outputs, kind
 from .curves import curved
@@ -71,12 +71,6 @@ def vector_transform(n: Reader) -> Outputs:
 def radial_tiling(n: Reader) -> Outputs:
     """The plane in segments around 0."""
     sides, roundness = n.number("Sides", 5.0), n.number("Roundness")
-    if not _is_whole(sides) and not (isinstance(roundness, Constant) and roundness.value[0] == 0):
-        n.warn("the corners of a part of a side are rounded as those of a whole one")
     made = n.call("radial_tiling", n.vector("Vector"), sides, roundness, n.literal(bool(n.setting("normalize", False))))
     return {"Segment Coordinates": as_vector(made["coordinates"]), "Segment ID": made["id"],
             "Segment Width": made["width"], "Segment Rotation": made["rotation"]}
-
-
-def _is_whole(expr: Expr) -> bool:
-    return isinstance(expr, Constant) and float(expr.value[0]).is_integer()
