@@ -28,7 +28,7 @@ from .passes.evaluate import evaluate, see_through
 from .passes.gather import gather_cones, gather_rays
 from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
-from .passes.lights.glow import make_glow
+from .passes.lights.glow import make_glow, make_sky_table
 from .passes.lines import draw_lines
 from .passes.octree import build_octree, color_surfels
 from .passes.parts import Part, Parts, make_parts
@@ -184,20 +184,22 @@ def _tracer(stage: Stage, gpu_scene: GpuScene) -> Tracer:
 
 
 def _lights(stage: Stage, gpu_scene: GpuScene) -> Lights:
-    glow = stage("glow", make_glow, gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world)
+    table = stage("sky table", make_sky_table, gpu_scene.sky, gpu_scene.scene.world)
+    glow = stage("glow", make_glow, gpu_scene.placing, gpu_scene.emission, table)
     return stage("lights", make_lights, gpu_scene.lamps, glow)
 
 
 def _cache(stage: Stage, gpu_scene: GpuScene, tracer: Tracer, lights: Lights, settings: RenderSettings,
            n: int) -> LightCache:
     sky, world = gpu_scene.sky, gpu_scene.scene.world
-    placing, looks = gpu_scene.placing, gpu_scene.looks
+    placing, emission = gpu_scene.placing, gpu_scene.emission
     n_rays, n_points = settings.cache_rays, settings.injection_samples
     octree = stage("octree", build_octree, placing, n)
     colors = stage("colors", color_surfels, *gpu_scene.matter, octree)
-    links = stage("links", link, placing, octree, tracer, n_rays, keeps_hits(octree, n_rays, looks.emission_unit > 0))
-    found = stage("found", find_light, placing, looks, links, lights.glow, sky, world, gpu_scene.needs.world, n_points)
-    drawn = stage("drawn", draw_light, placing, looks, octree, tracer, lights, sky, world, n_rays, n_points)
+    links = stage("links", link, placing, octree, tracer, n_rays, keeps_hits(octree, n_rays, emission.highest > 0))
+    found = stage("found", find_light, placing, emission, links, lights.glow, sky, world, gpu_scene.needs.world,
+                  n_points)
+    drawn = stage("drawn", draw_light, placing, emission, octree, tracer, lights, sky, world, n_rays, n_points)
     return stage("cache", light_cache, colors, links, found, drawn, settings.bounces)
 
 

@@ -13,7 +13,7 @@ from svo_engine.gpu.device import Device
 from svo_engine.passes.bvh import build_bvh, build_meshes
 from svo_engine.passes.cache import PARTS, draw_light, find_light, light_cache, link
 from svo_engine.passes.lights import make_lights
-from svo_engine.passes.lights.glow import make_glow
+from svo_engine.passes.lights.glow import make_glow, make_sky_table
 from svo_engine.passes.octree import Colors, Octree, build_octree, color_surfels
 from svo_engine.passes.tracer import make_rest, tracer_of
 from svo_engine.passes.upload import GpuScene, upload
@@ -105,12 +105,12 @@ def lit_surfels(device: Device, scene: Scene, n: int = 32, rays: int = 16, point
         colors = keep(color_surfels(device, *gpu_scene.matter, octree))
         bvh = keep(build_bvh(device, gpu_scene.placing, trees))
         tracer = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
-        placing, looks, sky, world = gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world
-        glow = keep(make_glow(device, placing, looks, sky, world))
+        placing, emission, sky, world = gpu_scene.placing, gpu_scene.emission, gpu_scene.sky, gpu_scene.scene.world
+        glow = keep(make_glow(device, placing, emission, keep(make_sky_table(device, sky, world))))
         lights = keep(make_lights(device, gpu_scene.lamps, glow))
-        links = keep(link(device, placing, octree, tracer, rays, looks.emission_unit > 0))
-        found = keep(find_light(device, placing, looks, links, glow, sky, world, gpu_scene.needs.world, points))
-        drawn = keep(draw_light(device, placing, looks, octree, tracer, lights, sky, world, rays, points))
+        links = keep(link(device, placing, octree, tracer, rays, emission.highest > 0))
+        found = keep(find_light(device, placing, emission, links, glow, sky, world, gpu_scene.needs.world, points))
+        drawn = keep(draw_light(device, placing, emission, octree, tracer, lights, sky, world, rays, points))
         cache = keep(light_cache(device, colors, links, found, drawn, bounces))
         surfels, n_bounces = read_surfels(gpu_scene, octree, colors), cache.n_bounces()
         bits = cache.entries.read(16 * PARTS * 2 * len(surfels.rows)) if len(surfels.rows) else b""

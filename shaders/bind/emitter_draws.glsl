@@ -2,7 +2,7 @@
 // Purpose: points on emissive triangles, with what their material sends out.
 
 #include "bind/emitters.glsl"
-#include "bind/looks.glsl"
+#include "bind/emission.glsl"
 
 // Draw k of u_n_emitter_draws, without shadows.
 LightDraw draw_emitter(int k, vec3 p, vec3 normal, uint sample_index, uint seed)

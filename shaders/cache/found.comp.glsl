@@ -7,7 +7,7 @@
 // Invocation: one side of one surfel
 
 #include "bind/emitters.glsl"
-#include "bind/looks.glsl"
+#include "bind/emission.glsl"
 #include "cache/side.glsl"
 
 layout(local_size_x = 64) in;

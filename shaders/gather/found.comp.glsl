@@ -6,7 +6,7 @@
 // Invocation: one pixel
 
 #include "bind/emitters.glsl"
-#include "bind/looks.glsl"
+#include "bind/emission.glsl"
 #include "bind/shapes.glsl"
 
 layout(local_size_x = 64) in;

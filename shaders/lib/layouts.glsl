@@ -96,6 +96,13 @@ struct Opacity {
     int alpha_texture;
 };
 
+struct Emission {
+    vec3 color;
+    int color_texture;
+    float alpha;
+    int alpha_texture;
+};
+
 struct Texture {
     vec3 u_from_uv;
     uint picture;

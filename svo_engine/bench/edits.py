@@ -22,7 +22,8 @@ _SMALL = 1e-3  # of a metre, a radian or a value, for each number
 # What is made anew, as Session.forget takes it: no name means everything, None nothing. "light": all from voxels on
 KINDS: dict[str, tuple[str, ...] | None] = {
     "all": (), "camera": None,
-    "light": ("voxelize", "light", "octree", "colors", "glow", "lights", "links", "found", "drawn", "cache")}
+    "light": ("voxelize", "light", "octree", "colors", "sky table", "glow", "lights", "links", "found", "drawn",
+              "cache")}
 
 # The defaults of Blender's viewport, which has a denoiser of its own, and of F12
 VIEWPORT = {"samples": 1, "denoiser": "automatic", "denoising_quality": "fast"}

@@ -47,7 +47,7 @@ def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, tab
     """Evaluate the trees of all triangles, as finely as MOST allows. GpuError if the cells do not fit the device."""
     scope = device.scope()
     traits = trees.compiled.traits
-    emits, passes = (np.array([bool(t and getattr(t, name)) for t in traits], bool) for name in ("emits", "passes"))
+    emits = np.array([bool(t and t.emits) for t in traits], bool)
     n_rows, brightest, means = 0, 0.0, None
     if trees.passes and placing.n_work:
         with device.scope() as scratch:
@@ -69,10 +69,7 @@ def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, tab
     else:
         texels = scope.texels("baked", TEXEL)
     device.profiler.counts["baked bytes"] = scope.n_bytes
-    read: Resources = {"u_baked": texels, "u_n_rows": n_rows}
-    opacity = {**surfaces.images, "Opacities": surfaces.opacities, **read}
-    return Looks(scope, surfaces, {**surfaces.materials, **read}, read, opacity, surfaces.has_alpha | passes,
-                  max(surfaces.emission_unit, brightest), means, emits)
+    return Looks(scope, surfaces, {"u_baked": texels, "u_n_rows": n_rows}, brightest, means, emits)
 
 
 def _cells(device: Device, scratch: GpuScope, placing: Placing, common: Resources) -> tuple[Buffer, int, float]:

@@ -21,7 +21,7 @@ from .lights import Lights
 from .lights.glow import Glow
 from .octree import Colors, Octree
 from .tracer import Tracer
-from .upload.looks import Looks
+from .upload.emission import Emission
 from .upload.placing import Placing
 from .upload.sky import Sky, world_uniforms
 
@@ -109,11 +109,11 @@ def link(device: Device, placing: Placing, octree: Octree, tracer: Tracer, n_ray
     return Links(scope, octree, links, hits, n_rays)
 
 
-def find_light(device: Device, placing: Placing, looks: Looks, links: Links, glow: Glow, sky: Sky, world: World,
+def find_light(device: Device, placing: Placing, emission: Emission, links: Links, glow: Glow, sky: Sky, world: World,
                has_world: bool, n_points: int) -> Found:
     """The light of the world and of emissive triangles along the links."""
     octree = links.octree
-    scope, n_sides, shines = device.scope(), 2 * octree.n_surfels, looks.emission_unit > 0
+    scope, n_sides, shines = device.scope(), 2 * octree.n_surfels, emission.highest > 0
     light = scope.buffer("found light", 16 * n_sides, clear=not has_world)
     draws = {"u_n_lamps": 0, "u_n_tree_draws": 0, **glow.draws()}
     common = {**_octree(octree), **draws, "Cache": None, "Found": light, "u_n_rays": links.n_rays,
@@ -121,13 +121,13 @@ def find_light(device: Device, placing: Placing, looks: Looks, links: Links, glo
     if has_world:
         device.dispatch(SKY, n_sides, **glow.sky(), **world_uniforms(sky, world), **common, Links=links.links)
     if shines:
-        device.dispatch(FOUND, n_sides, **placing.geometry, **looks.materials, **glow.emitters(), **common,
+        device.dispatch(FOUND, n_sides, **placing.geometry, **emission.read, **glow.emitters(), **common,
                         LinkHits=links.hits)
     return Found(scope, light, n_points)
 
 
-def draw_light(device: Device, placing: Placing, looks: Looks, octree: Octree, tracer: Tracer, lights: Lights, sky: Sky,
-               world: World, n_rays: int, n_points: int) -> Drawn:
+def draw_light(device: Device, placing: Placing, emission: Emission, octree: Octree, tracer: Tracer, lights: Lights,
+               sky: Sky, world: World, n_rays: int, n_points: int) -> Drawn:
     """n_points times all draws of light at every side, with traced shadows, weighed against its n_rays rays."""
     scope, n_sides, n_all = device.scope(), 2 * octree.n_surfels, lights.n_draws
     drawn = scope.buffer("drawn light", 32 * n_sides, clear=not n_all)
@@ -140,7 +140,7 @@ def draw_light(device: Device, placing: Placing, looks: Looks, octree: Octree, t
             common = {**_octree(octree), "Cache": None, "Draws": draws, "u_start": start, "u_stride": n,
                       "u_n_points": n_points}
             if n_draws:
-                device.dispatch(DRAW, n, **placing.geometry, **looks.materials, **lights.emitters(), **common)
+                device.dispatch(DRAW, n, **placing.geometry, **emission.read, **lights.emitters(), **common)
             device.dispatch(DIRECT, n, tracer.constants(), **tracer.resources(), **lights.resources(),
                             **world_uniforms(sky, world), **common, Drawn=drawn, u_n_rays=n_rays)
     return Drawn(scope, drawn)

@@ -46,7 +46,7 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: 
     needs, wave = gpu_scene.needs, parts.of(part, EYE)
     n_rays = settings.gather_rays * needs.light
     if lights.has_emitters(needs):
-        device.dispatch(DRAW, part.n, **gpu_scene.geometry, **gpu_scene.looks.materials, **wave,
+        device.dispatch(DRAW, part.n, **gpu_scene.geometry, **gpu_scene.emission.read, **wave,
                         **all_slots(parts, part), **lights.emitters(), u_seed_offset=0)
     ends = {"u_n_rays": n_rays, "u_ends": parts.planes["ends"]}
     device.dispatch(
@@ -54,7 +54,7 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: 
         **gpu_scene.world(), **cache.resources(), **cache.colors.resources(), **wave, **ends,
         u_n_facing=1 + needs.glass, u_keeps_draws=needs.gloss, u_keeps_ends=needs.emission)
     if needs.emission and n_rays:
-        device.dispatch(FOUND, part.n, **gpu_scene.geometry, **gpu_scene.looks.materials, **lights.emitters(), **wave,
+        device.dispatch(FOUND, part.n, **gpu_scene.geometry, **gpu_scene.emission.read, **lights.emitters(), **wave,
                         **ends)
     if needs.gloss:
         follow_paths(device, gpu_scene, cache, tracer, lights, eye, parts, part)

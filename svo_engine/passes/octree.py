@@ -17,6 +17,7 @@ from ..gpu.scope import GpuScope
 from ..gpu.texels import Texels
 from ..scene import layouts
 from .albedo import Albedo
+from .upload.emission import Emission
 from .upload.looks import Looks
 from .upload.placing import Placing
 from .voxelize import Grid, cut_strips, make_grid, number_bits, work_of
@@ -106,14 +107,15 @@ def build_octree(device: Device, placing: Placing, n: int) -> Octree:
     return Octree(scope, grid, words, surfels, strips, n_strips, n_nodes, n_surfels)
 
 
-def color_surfels(device: Device, placing: Placing, looks: Looks, table: Albedo, octree: Octree) -> Colors:
+def color_surfels(device: Device, placing: Placing, looks: Looks, emission: Emission, table: Albedo,
+                  octree: Octree) -> Colors:
     """The means of what surfaces look like. GpuError if they do not fit the device."""
     scope, n = device.scope(), octree.n_surfels
     texels = scope.texels("colours of surfels", _COLORS * max(n, 1))
     with device.scope() as scratch:
-        n_sums = COLOR_SUMS + 3 * (looks.emission_unit > 0)
+        n_sums = COLOR_SUMS + 3 * (emission.highest > 0)
         sums: Resources = {"Sums": scratch.buffer("colour sums", 4 * n_sums * n, clear=True), "u_n_sums": n_sums,
-                           "u_emission_unit": looks.emission_unit}
+                           "u_emission_unit": emission.highest}
         if n:
             device.dispatch(PAINT, octree.n_strips, **work_of(placing, octree.grid, octree.strips), **looks.materials,
                             **sums, u_albedo=table.table, Octree=octree.words,

@@ -52,7 +52,7 @@ def follow_paths(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer:
             points = parts.met
             evaluate_met(device, gpu_scene, eye, parts, part, n, slots)
             if has_emitters and n_legs < most:
-                device.dispatch(DRAW, n, **gpu_scene.geometry, **gpu_scene.looks.materials, **lights.emitters(),
+                device.dispatch(DRAW, n, **gpu_scene.geometry, **gpu_scene.emission.read, **lights.emitters(),
                                 **parts.of(part, points), **slots, u_seed_offset=3)
             going = step(points, n, slots, n_legs)
             device.profiler.counts["path rounds"] += 1

@@ -136,7 +136,7 @@ def can_trace(gpu_scene: GpuScene, tracer: Tracer) -> bool:
     A graphics card takes .3 ms to change between drawing and dispatches. Alpha is for the rasteriser, which spreads the
     samples that it lets through evenly.
     """
-    return not tracer.bvh.in_lockstep and not gpu_scene.looks.has_alpha.any()
+    return not tracer.bvh.in_lockstep and gpu_scene.opacity.is_whole
 
 
 def _clip_from_world(gpu_scene: GpuScene, view: View, settings: RenderSettings, sample: int) -> np.ndarray:
@@ -156,6 +156,6 @@ def _draw(device: Device, gpu_scene: GpuScene, targets: Targets, clip_from_world
     calls = (DrawCall(3 * part.n_triangles, part.n_instances,
                       {"u_first_instance": part.first_instance, "u_first_triangle": part.first_triangle})
              for part in gpu_scene.placing.draws)
-    read = {**gpu_scene.geometry, **gpu_scene.opacity, "u_sees_trees": sees_trees}
+    read = {**gpu_scene.geometry, **gpu_scene.opacity.read, "u_sees_trees": sees_trees}
     device.draw(VISIBILITY, targets.framebuffer, calls, **read, u_clip_from_world=clip_from_world, u_sample=sample,
                 u_seed=settings.seed)

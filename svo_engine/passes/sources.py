@@ -141,7 +141,7 @@ def _light(device: Device, tree: One, images: tuple[Image, ...], n: int, points:
     pass_ = source_pass(tree.text)
     device.prepare([(pass_, {})])
     with device.scope() as scope:
-        pictures = upload_pictures(device, images, used)
+        pictures = upload_pictures(device, (), images, tuple(used))
         scope.adopt(pictures.scope)
         made = scope.buffer("light of a source", 16 * n)
         given: dict[str, Resource] = {

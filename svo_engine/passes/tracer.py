@@ -11,8 +11,7 @@ from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
 from .bvh import Bvh
 from .upload import GpuScene
-from .upload.cutouts import Cutouts, opacity_of
-from .upload.looks import Looks
+from .upload.opacity import Opacity
 from .upload.placing import Placing
 
 QUICK = 24  # entries of a ray's stack that lie in shared memory, see bind/trace.glsl
@@ -23,14 +22,13 @@ class Tracer:
     """The trees of boxes, and all that rays know of materials. rest: room for what their stacks hold beyond QUICK."""
 
     placing: Placing
-    looks: Looks
-    cutouts: Cutouts
+    opacity: Opacity
     bvh: Bvh
     rest: Rest
 
     def resources(self) -> Resources:
         """What bind/trace.glsl reads."""
-        return {**opacity_of(self.placing, self.looks, self.cutouts), **self.bvh.resources(),
+        return {**self.opacity.read, **self.bvh.resources(),
                 "TraceRest": self.rest.words, "u_trace_stride": MOST_RAYS}
 
     def constants(self) -> dict[str, bool]:
@@ -55,4 +53,4 @@ def make_rest(device: Device, height: int) -> Rest:
 
 def tracer_of(gpu_scene: GpuScene, bvh: Bvh, rest: Rest) -> Tracer:
     """The rays of a scene."""
-    return Tracer(gpu_scene.placing, gpu_scene.looks, gpu_scene.cutouts, bvh, rest)
+    return Tracer(gpu_scene.placing, gpu_scene.opacity, bvh, rest)

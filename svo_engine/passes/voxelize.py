@@ -18,6 +18,7 @@ from ..gpu.program import Resources
 from ..gpu.scope import GpuScope
 from ..scene import layouts
 from .albedo import Albedo
+from .upload.emission import Emission
 from .upload.looks import Looks
 from .upload.placing import Placing
 
@@ -66,7 +67,8 @@ def make_grid(extent: float, n: int) -> Grid:
     return Grid(n, (low, low, low), voxel_size)
 
 
-def voxelize(device: Device, placing: Placing, looks: Looks, table: Albedo, n: int) -> Voxels:
+def voxelize(device: Device, placing: Placing, looks: Looks, emission: Emission, table: Albedo,
+             n: int) -> Voxels:
     """Voxelize at n voxels a side, n a multiple of 4. GpuError if the voxels do not fit the device."""
     grid, scope = make_grid(placing.extent, n), device.scope()
     if not placing.n_work:
@@ -77,9 +79,9 @@ def voxelize(device: Device, placing: Placing, looks: Looks, table: Albedo, n: i
         work = work_of(placing, grid, strips)
         occupancy = mark(device, scope, work, n_strips, grid)
         firsts, n_voxels = number_bits(device, scratch, occupancy, n**3 // 32)
-        n_sums = SUMS + 3 * (looks.emission_unit > 0)
+        n_sums = SUMS + 3 * (emission.highest > 0)
         sums: Resources = {"Sums": scratch.buffer("voxel sums", 4 * n_sums * n_voxels, clear=True),
-                           "u_n_sums": n_sums, "u_emission_unit": looks.emission_unit}
+                           "u_n_sums": n_sums, "u_emission_unit": emission.highest}
         device.dispatch(ACCUMULATE, n_strips, **work, **looks.materials, **sums, Occupancy=occupancy,
                         VoxelFirst=firsts, u_albedo=table.table)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)

@@ -36,6 +36,9 @@ MATERIAL: Fields = (("base_color", "vec3"), ("alpha", "float"), ("emission", "ve
 # What a ray must know of a material: which share of all rays it stops, and the texture that multiplies that, or -1
 OPACITY: Fields = (("alpha", "float"), ("alpha_texture", "int"))
 
+# What a material sends out: radiance and the texture that multiplies it, or -1; likewise the share of it that is there
+EMISSION: Fields = (("color", "vec3"), ("color_texture", "int"), ("alpha", "float"), ("alpha_texture", "int"))
+
 # `scene.types.Texture`; picture: the row of its image
 TEXTURE: Fields = (("u_from_uv", "vec3"), ("picture", "uint"), ("v_from_uv", "vec3"), ("extension", "uint"),
                    ("closest", "uint"), ("channel", "int"), ("divides", "uint"))
@@ -92,10 +95,10 @@ BVH_INSTANCE: Fields = (("inv_x", "vec4"), ("inv_y", "vec4"), ("inv_z", "vec4"),
 # What a tree is built from: box, reference, and tree << BVH_HEIGHT_BITS | height
 CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("tree_height", "uint"))
 
-STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Texture": TEXTURE, "Picture": PICTURE,
-           "Shown": SHOWN, "Light": LIGHT, "LightNode": LIGHT_NODE, "Emitter": EMITTER, "Voxel": VOXEL,
-           "Surfel": SURFEL, "SurfelColors": SURFEL_COLORS, "BvhNode": BVH_NODE, "BvhTriangle": BVH_TRIANGLE,
-           "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
+STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Emission": EMISSION, "Texture": TEXTURE,
+           "Picture": PICTURE, "Shown": SHOWN, "Light": LIGHT, "LightNode": LIGHT_NODE, "Emitter": EMITTER,
+           "Voxel": VOXEL, "Surfel": SURFEL, "SurfelColors": SURFEL_COLORS, "BvhNode": BVH_NODE,
+           "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "ATTRIBUTE_POINT": 1, "ATTRIBUTE_FACE": 2, "ATTRIBUTE_CORNER": 3, "ATTRIBUTE_INSTANCE": 4,

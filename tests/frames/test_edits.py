@@ -141,6 +141,40 @@ def test_no_edit_compiles_anything_and_all_that_it_runs_was_told(warm, name):
     assert ran(edited_film) - told(scene, replace(SETTINGS, **settings)) == set()
 
 
+COLORS = {"octree/paint", "octree/blend", "cache/start", "cache/bounce"}
+DIRECT = {"cache/direct", "cache/start", "cache/bounce"}
+GLOW = {"cache/found", "cache/draw"}
+
+# What is redone of what frames keep: links are traced anew by what stops rays or is elsewhere, and by that alone
+REDONE: dict[str, tuple[Scene, set[str]]] = {
+    "nothing": (variety.alcove(), set()),
+    "camera": (seen_from(0.8), set()),
+    "lamp": (edited(variety.bulb(emitted=2.0)), DIRECT),
+    "world": (variety.alcove(world=World((0.2, 0.3, 0.4))), DIRECT | {"cache/sky"}),
+    "colour": (edited(base_color=(0.2, 0.3, 0.9)), COLORS),
+    "roughness": (edited(roughness=0.1), COLORS),
+    "specular": (edited(specular_level=0.5), COLORS),
+    "metallic": (edited(metallic=1.0), COLORS),
+    "transmission": (edited(transmission=1.0), COLORS),
+    "emission": (edited(emission=(1.0, 2.0, 3.0)), COLORS | DIRECT | GLOW),
+    "alpha": (edited(alpha=0.5), COLORS | DIRECT | {"cache/link"}),
+}
+
+
+@pytest.mark.parametrize("name", REDONE)
+def test_an_edit_redoes_what_it_changes(warm, name):
+    film(warm.session, variety.alcove(), {})
+    scene, redone = REDONE[name]
+    after = film(warm.session, scene, {})
+    assert {name for name in ran(after) if name.split("/")[0] in ("bvh", "cache", "octree", "voxelize")} == redone
+
+
+def test_the_colour_of_what_shines_traces_nothing(warm):
+    film(warm.session, edited(emission=(1.0, 2.0, 3.0)), {})
+    after = film(warm.session, edited(emission=(1.0, 2.0, 3.0), base_color=(0.2, 0.3, 0.9)), {})
+    assert {name for name in ran(after) if name.startswith(("cache/", "octree/"))} == COLORS
+
+
 def test_another_size_compiles_nothing(warm):
     assert film(warm.session, variety.alcove(), {}, (17, 30)).stats["counts"]["programs compiled"] == 0
 

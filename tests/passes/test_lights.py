@@ -10,7 +10,7 @@ import pytest
 
 from svo_engine.passes.lights import emitters, make_lights
 from svo_engine.passes.lights.emitters import emitters_of
-from svo_engine.passes.lights.glow import make_glow
+from svo_engine.passes.lights.glow import make_glow, make_sky_table
 from svo_engine.passes.lights.sky import sky_table
 from svo_engine.passes.lights.tree import leaf_of_light, light_tree
 from svo_engine.passes.upload import linear_pixels, upload
@@ -133,7 +133,7 @@ def bright_quad(name="Panel", radiance=5.0, place=None, n=1):
 def drawn_from(device, scene):
     gpu_scene = upload(device, scene)
     with gpu_scene.scope:
-        return emitters_of(gpu_scene.placing, gpu_scene.looks)
+        return emitters_of(gpu_scene.placing, gpu_scene.emission)
 
 
 def test_emitters_are_the_glowing_triangles_where_they_are_placed(device):
@@ -194,7 +194,10 @@ def table_of(scene):
 
 
 def glow_of(device, gpu_scene):
-    return make_glow(device, gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world)
+    table = make_sky_table(device, gpu_scene.sky, gpu_scene.scene.world)
+    glow = make_glow(device, gpu_scene.placing, gpu_scene.emission, table)
+    glow.scope.adopt(table.scope)
+    return glow
 
 
 def sunny(height=32, width=64):

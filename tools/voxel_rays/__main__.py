@@ -23,7 +23,7 @@ from svo_engine.gpu.passes import Pass
 from svo_engine.passes.bvh import build_bvh, build_meshes
 from svo_engine.passes.cache import draw_light, find_light, light_cache, link
 from svo_engine.passes.lights import make_lights
-from svo_engine.passes.lights.glow import make_glow
+from svo_engine.passes.lights.glow import make_glow, make_sky_table
 from svo_engine.passes.octree import build_octree, color_surfels
 from svo_engine.passes.tracer import make_rest, tracer_of
 from svo_engine.passes.upload import GpuScene, upload
@@ -81,16 +81,16 @@ def measure(device: Device, scene: Scene, n: int, n_points: int) -> Iterator[tup
             return result
 
         gpu_scene: GpuScene = keep(upload(device, scene))
-        placing, looks, sky, world = gpu_scene.placing, gpu_scene.looks, gpu_scene.sky, gpu_scene.scene.world
+        placing, emission, sky, world = gpu_scene.placing, gpu_scene.emission, gpu_scene.sky, gpu_scene.scene.world
         bvh = keep(build_bvh(device, placing, keep(build_meshes(device, scene.meshes))))
         tracer = tracer_of(gpu_scene, bvh, keep(make_rest(device, bvh.height)))
         octree = keep(build_octree(device, placing, n))
         colors = keep(color_surfels(device, *gpu_scene.matter, octree))
-        glow = keep(make_glow(device, placing, looks, sky, world))
+        glow = keep(make_glow(device, placing, emission, keep(make_sky_table(device, sky, world))))
         lights = keep(make_lights(device, gpu_scene.lamps, glow))
         links = keep(link(device, placing, octree, tracer, 16, True))
-        light = keep(find_light(device, placing, looks, links, glow, sky, world, True, 4))
-        drawn = keep(draw_light(device, placing, looks, octree, tracer, lights, sky, world, 16, 4))
+        light = keep(find_light(device, placing, emission, links, glow, sky, world, True, 4))
+        drawn = keep(draw_light(device, placing, emission, octree, tracer, lights, sky, world, 16, 4))
         cache = keep(light_cache(device, colors, links, light, drawn, 12))
         scope = made.enter_context(device.scope())
         starts = scope.buffer("starts", seen_points(Traced(device, gpu_scene, tracer), n_points))

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...scene.types import Instances, Material, Mesh
-from ..upload.looks import Looks
+from ...scene.types import Instances, Mesh
+from ..upload.emission import Emission
 from ..upload.placing import Placing
-from ..upload.sky import linear_pixels
-from ..upload.surfaces import Surfaces
 
 MOST = 1 << 17  # triangles; what goes beyond is large enough to be found by rays alone
 EASY = 0.25  # of the area of all surfaces: rays find more than that often enough by themselves, with less noise
@@ -34,25 +32,22 @@ class Emitters:
     intensity: np.ndarray
 
 
-def emitters_of(placing: Placing, looks: Looks) -> Emitters:
+def emitters_of(placing: Placing, emission: Emission) -> Emitters:
     """The emissive triangles that rays would not find: of materials that are not EASY, and of as many instances as MOST
     allows, those with the fewest triangles first.
     """
     inst, meshes = placing.placed, placing.shapes.meshes
-    surfaces = looks.surfaces
-    radiance = np.array([_mean_radiance(surfaces, material) for material in surfaces.rows] or [0.0])
-    is_baked = looks.emits if looks.means is not None else np.zeros(len(radiance), bool)
-    radiance[:len(is_baked)][is_baked] = 1.0  # of each triangle its own
+    radiance = emission.means.copy()
     if radiance.any():
         radiance[_area_shares(inst, meshes, len(radiance)) > EASY] = 0.0
     order, first_triangle = placing.order, placing.shapes.first_triangle
     first_work = np.cumsum([0, *np.diff(first_triangle)[inst.mesh[order]]])
     glowing = [(number, i) for number, i in enumerate(order) if radiance[_slots(inst, i)].any()]
     found = {number: _radiances(inst, meshes, i, radiance) for number, i in _smallest(inst, meshes, glowing)}
-    if looks.means is not None:
+    if emission.of_trees is not None:
         for number, sent in found.items():
-            own = _radiances(inst, meshes, order[number], is_baked)
-            found[number] = np.where(own, looks.means[first_work[number]:first_work[number] + len(sent)], sent)
+            own = _radiances(inst, meshes, order[number], emission.is_tree)
+            found[number] = np.where(own, emission.of_trees[first_work[number]:first_work[number] + len(sent)], sent)
     parts = []
     for number, sent in sorted(found.items()):
         i = order[number]
@@ -64,15 +59,6 @@ def emitters_of(placing: Placing, looks: Looks) -> Emitters:
         parts.append([column[area > 0] for column in columns])
     empty = [np.zeros(0, "u4")] * 3 + [np.zeros((0, 3))] * 2 + [np.zeros(0)]
     return Emitters(*(np.concatenate(column) for column in zip(empty, *parts, strict=True)))
-
-
-def _mean_radiance(surfaces: Surfaces, material: Material) -> float:
-    """Mean over the colours and, if it has one, over the emission's image."""
-    color = np.array(material.emission, "f8")
-    if material.emission_texture >= 0:
-        image = surfaces.pictures[surfaces.textures[material.emission_texture].image]
-        color *= linear_pixels(image)[..., :3].mean((0, 1))
-    return max(float(color.mean()) * material.alpha, 0.0)
 
 
 def _area_shares(inst: Instances, meshes: tuple[Mesh, ...], n_materials: int) -> np.ndarray:

@@ -13,7 +13,7 @@ from ...gpu.scope import GpuScope
 from ...gpu.texels import Texels
 from ...scene import layouts
 from ...scene.types import World
-from ..upload.looks import Looks
+from ..upload.emission import Emission
 from ..upload.placing import Placing
 from ..upload.sky import Sky
 from .emitters import emitters_of
@@ -55,17 +55,33 @@ class Glow:
         return {"u_sky": self.table, "u_sky_size": self.sky_size, "u_world_from_env": self.world_from_env}
 
 
-def make_glow(device: Device, placing: Placing, looks: Looks, sky: Sky, world: World) -> Glow:
+@dataclass(frozen=True, eq=False)
+class SkyTable:
+    """As `Glow` has them."""
+
+    scope: GpuScope
+    texels: Texels
+    size: tuple[int, int]
+    world_from_env: np.ndarray
+
+
+def make_sky_table(device: Device, sky: Sky, world: World) -> SkyTable:
+    """The world's image as a table of probabilities."""
+    scope, table = device.scope(), sky_table(sky.image, world)
+    return SkyTable(scope, scope.texels("sky table", _whole_texels(table)),
+                    (0, 0) if table is None else (table.shape[1] - 1, table.shape[0]),
+                    np.eye(3) if table is None else np.linalg.inv(world.env_from_world))
+
+
+def make_glow(device: Device, placing: Placing, emission: Emission, sky: SkyTable) -> Glow:
     """What glows, on the device. GpuError names the buffer that does not fit."""
-    scope, emitters, table = device.scope(), emitters_of(placing, looks), sky_table(sky.image, world)
+    scope, emitters = device.scope(), emitters_of(placing, emission)
     tree = light_tree(emitters.low, emitters.high, emitters.intensity)
     rows = np.zeros(len(emitters.work), layouts.dtype(layouts.EMITTER))
     rows["work"], rows["instance"], rows["triangle"] = emitters.work, emitters.instance, emitters.triangle
     rows["leaf"] = leaf_of_light(tree)
     return Glow(scope, scope.texels("emitters", rows), scope.texels("emitter tree", tree), len(tree) // 2, len(rows),
-                scope.texels("sky table", _whole_texels(table)),
-                (0, 0) if table is None else (table.shape[1] - 1, table.shape[0]),
-                np.eye(3) if table is None else np.linalg.inv(world.env_from_world))
+                sky.texels, sky.size, sky.world_from_env)
 
 
 def _whole_texels(table: np.ndarray | None) -> np.ndarray:

@@ -20,9 +20,11 @@ from ...nodes.sources import settled
 from ...scene.types import Scene
 from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
-from .cutouts import Cutouts, mark_cutouts, opacity_of
+from .emission import Emission, emissions_of, upload_emission
 from .lamps import Lamps, light_rows
 from .looks import Looks
+from .opacity import Opacity, alphas_of, upload_opacity
+from .pictures import Pictures, upload_pictures
 from .placing import Draw, Placing, place
 from .shading import Shading, upload_shading
 from .shapes import pack_units, upload_shapes
@@ -45,22 +47,19 @@ class GpuScene:
     placing: Placing
     trees: Trees
     shading: Shading
+    pictures: Pictures
     surfaces: Surfaces
     looks: Looks
-    cutouts: Cutouts
+    opacity: Opacity
+    emission: Emission
     lamps: Lamps
     sky: Sky
     table: Albedo
 
     @property
-    def matter(self) -> tuple[Placing, Looks, Albedo]:
+    def matter(self) -> tuple[Placing, Looks, Emission, Albedo]:
         """All that a voxel can hold: where surfaces are and what they look like."""
-        return self.placing, self.looks, self.table
-
-    @property
-    def opacity(self) -> Resources:
-        """What bind/opacity.glsl reads: all that rays know of materials."""
-        return opacity_of(self.placing, self.looks, self.cutouts)
+        return self.placing, self.looks, self.emission, self.table
 
     @property
     def geometry(self) -> Resources:
@@ -86,7 +85,7 @@ class GpuScene:
 
     def told(self) -> tuple[str, ...]:
         """A sentence for each thing that is not as in Blender."""
-        return *self.sky.notes, *self.surfaces.limits
+        return *self.sky.notes, *self.pictures.limits
 
     def world(self) -> Resources:
         """What bind/environment.glsl reads."""
@@ -121,7 +120,8 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     scene = scene.plain
     shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
     placing = make("placing", place, shapes, scene.instances)
-    surfaces = make("surfaces", upload_surfaces, scene.materials, scene.textures, scene.images, trees)
+    pictures = make("pictures", upload_pictures, scene.textures, scene.images, tuple(sorted(trees.compiled.images)))
+    surfaces = make("surfaces", upload_surfaces, scene.materials, pictures, trees)
     table = make("albedo", albedo, needs.principled or needs.trees, n_kept=2)
     asked = trees.compiled.attributes if trees.passes else None
     shading = make("shading", upload_shading, placing, scene.meshes, scene.instances, asked)
@@ -131,6 +131,22 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     images = () if all(light.is_exact for light in scene.lights) else scene.images
     sky = make("sky", make_sky, world, tree, scene.images if tree else ())
     return GpuScene(
-        scope, scene, needs, placing, trees, shading, surfaces, looks,
-        make("cutouts", mark_cutouts, placing, looks, needs.skips),
+        scope, scene, needs, placing, trees, shading, pictures, surfaces, looks,
+        _opacity(scene, needs, trees, make, placing, pictures, looks),
+        _emission(scene, trees, make, pictures, looks),
         make("lamps", make_lamps, (*scene.lights, *sky.suns), images, placing.centre_ws), sky, table)
+
+
+def _opacity(scene: Scene, needs: Needs, trees: Trees, make: Make, placing: Placing, pictures: Pictures,
+             looks: Looks) -> Opacity:
+    passes = tuple(t is not None and t.passes for t in trees.compiled.traits)
+    return make("opacity", upload_opacity, placing, pictures, alphas_of(scene.materials, trees.compiled.traits), passes,
+                looks if any(passes) else None, needs.skips)
+
+
+def _emission(scene: Scene, trees: Trees, make: Make, pictures: Pictures, looks: Looks) -> Emission:
+    given = emissions_of(scene.materials, trees.compiled.traits)
+    has_images = any(texture >= 0 for _, texture, _, _ in given)
+    textures, images = (scene.textures, scene.images) if has_images else ((), ())
+    shines = any(t is not None and t.emits for t in trees.compiled.traits)
+    return make("emission", upload_emission, pictures, given, textures, images, looks if shines else None)

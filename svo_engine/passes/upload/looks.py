@@ -16,23 +16,22 @@ from .surfaces import Surfaces
 class Looks:
     """Materials, and what was baked of those that are trees.
 
-    materials      what bind/looks.glsl reads
-    surfaces       what all that evaluates itself reads
-    baked          what bind/baked.glsl reads
-    opacity        what bind/opacity.glsl reads of materials
-    has_alpha      (n_materials,) bool: whether a ray may pass through it
-    emission_unit  the highest radiance that any material sends out
-    means          (n_work,) f4, radiance of triangles whose material is a tree, if any of them shines; n_work counts
-                   triangles with instances
-    emits          (n_materials,) bool: materials whose triangles stand in `means`
+    surfaces   what all that evaluates itself reads
+    baked      what bind/baked.glsl reads beside the triangles
+    brightest  the highest radiance that was baked
+    means      (n_work,) f4, radiance of triangles whose material is a tree, if any of them shines; n_work counts
+               triangles with instances
+    emits      (n_materials,) bool: materials whose triangles stand in `means`
     """
 
     scope: GpuScope
     surfaces: Surfaces
-    materials: Resources
     baked: Resources
-    opacity: Resources
-    has_alpha: np.ndarray
-    emission_unit: float
+    brightest: float
     means: np.ndarray | None
     emits: np.ndarray
+
+    @property
+    def materials(self) -> Resources:
+        """What bind/materials.glsl and bind/baked.glsl read."""
+        return {**self.surfaces.materials, **self.baked}

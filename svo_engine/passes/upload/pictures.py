@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Texels on the device: all images in one texture of words, the largest of them halved where there is no room."""
+"""Textures on the device: texels of all images in one texture of words, the largest halved where there is no room."""
 
 from __future__ import annotations
 
@@ -13,21 +13,24 @@ from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...gpu.words import WIDTH, room_for
 from ...scene import layouts
-from ...scene.types import Image
+from ...scene.types import Image, Texture
 
 
 @dataclass(frozen=True, eq=False)
 class Pictures:
-    """read: what bind/textures.glsl reads of images; limits: a sentence for each image that was halved."""
+    """read: what bind/textures.glsl reads; limits: a sentence for each image that was halved."""
 
     scope: GpuScope
     read: Resources
     limits: tuple[str, ...]
 
 
-def upload_pictures(device: Device, images: tuple[Image, ...], used: frozenset[int]) -> Pictures:
-    """Copy the images of these indices, with all of their tiles. All images have a row, and one more is of none."""
-    scope = device.scope()
+def upload_pictures(device: Device, textures: tuple[Texture, ...], images: tuple[Image, ...],
+                    others: tuple[int, ...]) -> Pictures:
+    """Copy the images that textures read, and `others`, with all of their tiles. All images have a row, and one more is
+    of none.
+    """
+    scope, used = device.scope(), {*others, *(texture.image for texture in textures)}
     numbers = sorted({i + tile for i in used if i < len(images) for tile in range(images[i].n_tiles)})
     pictures, limits = fitted([images[i] for i in numbers], room_for(device.calls, device.context.is_software))
     words = [_words(image) for image in pictures]
@@ -39,7 +42,8 @@ def upload_pictures(device: Device, images: tuple[Image, ...], used: frozenset[i
         texels.put(int(first), part)
     rows = np.zeros(len(images) + 1, layouts.dtype(layouts.PICTURE))
     rows[numbers] = _rows(pictures, firsts)
-    return Pictures(scope, {"Pictures": scope.buffer("pictures", rows), "u_words": texels}, limits)
+    return Pictures(scope, {"Textures": scope.buffer("textures", _textures(textures)),
+                            "Pictures": scope.buffer("pictures", rows), "u_words": texels}, limits)
 
 
 def fitted(images: Sequence[Image], budget: int) -> tuple[list[Image], tuple[str, ...]]:
@@ -79,4 +83,15 @@ def _rows(images: Sequence[Image], firsts: np.ndarray) -> np.ndarray:
         row["first_word"], row["format"] = first, layouts.CONSTANTS[f"FORMAT_{kind}"]
         row["height"], row["width"] = image.pixels.shape[:2]
         row["is_associated"], row["tile"], row["n_tiles"] = image.is_associated, image.tile, image.n_tiles
+    return rows
+
+
+def _textures(textures: tuple[Texture, ...]) -> np.ndarray:
+    rows = np.zeros(len(textures), layouts.dtype(layouts.TEXTURE))
+    for row, texture in zip(rows, textures, strict=True):
+        row["u_from_uv"], row["v_from_uv"] = texture.uv_from_mesh[:3], texture.uv_from_mesh[3:]
+        row["picture"] = texture.image
+        row["extension"] = layouts.CONSTANTS[f"EXTENSION_{texture.extension}"]
+        row["closest"], row["channel"] = texture.interpolation == "Closest", texture.channel
+        row["divides"] = texture.divides
     return rows
