@@ -57,7 +57,7 @@ class Writer:
         begin = []
         if normal is not None:
             self.value("vec3 displaced_normal(Geo g)", normal)
-            begin = ["g.normal = c.normal = displaced_normal(g);"]
+            begin = ["g.normal = displaced_normal(g);", "c = no_closures(g, c.chance, c.wants_mean);"]
         roots = [expr for w in found for expr in (w.weight, *w.leaf.arguments)]
 
         def end(code: Any) -> list[str]:
