@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import count
 
-from .expr import Expr, call, constant
+from .expr import Expr, call, literal
 
 _numbers = count()
 
@@ -65,14 +65,15 @@ def leaves(root: Closure | None) -> list[Weighted]:
             if part.number not in reached:
                 reached[part.number] = part
                 waiting.append(part)
-    weights: dict[int, Expr] = {root.number: constant(1.0)}
+    whole = literal(1.0)
+    weights: dict[int, Expr] = {root.number: whole}
     found = []
     for number in sorted(reached, reverse=True):
         closure, weight = reached[number], weights[number]
         if isinstance(closure, Leaf):
             found.append(Weighted(weight, closure))
         for part, share in closure.parts():
-            own = weight if share is None else call("product_of_weights", weight, share)
+            own = weight if share is None else share if weight is whole else call("product_of_weights", weight, share)
             before = weights.get(part.number)
             weights[part.number] = own if before is None else call("sum_of_weights", before, own)
     return found[::-1]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from .closures import Leaf, Weighted
 from .emit import in_order
-from .expr import Call, Constant, Expr
+from .expr import Call, Constant, Expr, Literal
 from .signatures import library
 
 _DIFFUSE = {"closure_diffuse", "closure_emission", "closure_transparent", "closure_translucent", "closure_holdout",
@@ -68,4 +68,4 @@ def _arguments(leaf: Leaf, *names: str) -> list[Expr]:
 
 
 def _is_zero(expr: Expr) -> bool:
-    return isinstance(expr, Constant) and not any(expr.value)
+    return isinstance(expr, (Constant, Literal)) and not any(expr.value)
