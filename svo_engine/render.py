@@ -24,7 +24,7 @@ from .passes.cache import LightCache, draw_light, find_light, keeps_hits, light_
 from .passes.debug import make_attribute, show_surfels, show_voxels
 from .passes.denoise import read_picture
 from .passes.denoise.choice import Denoiser, make_denoiser, wanted
-from .passes.evaluate import evaluate, see_through
+from .passes.evaluate import evaluate, restyle, see_through
 from .passes.gather import gather_cones, gather_rays
 from .passes.light import LitVoxels, injection_of, light
 from .passes.lights import Lights, make_lights
@@ -120,6 +120,7 @@ def _method(stage: Stage, device: Device, gpu_scene: GpuScene, targets: Targets,
         return None, _in_parts(
             device, gpu_scene, targets, None, settings, parts,
             lambda eye, part: gather_cones(device, gpu_scene, lit, eye, parts, part, settings),
+            lambda eye, part: restyle(device, gpu_scene, eye, parts, part),
             lambda eye, part: resolve(device, gpu_scene, eye, parts, part, film))
     tracer = _tracer(stage, gpu_scene)
     lights = _lights(stage, gpu_scene)
@@ -135,6 +136,7 @@ def _method(stage: Stage, device: Device, gpu_scene: GpuScene, targets: Targets,
     return tracer, _in_parts(
         device, gpu_scene, targets, tracer, settings, parts,
         lambda eye, part: gather_rays(device, gpu_scene, cache, tracer, lights, eye, parts, part, settings),
+        lambda eye, part: restyle(device, gpu_scene, eye, parts, part),
         lambda eye, part: resolve(device, gpu_scene, eye, parts, part, film))
 
 

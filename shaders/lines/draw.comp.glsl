@@ -87,4 +87,5 @@ void main()
     vec3 towards = -own.direction, none = vec3(0.0);
     put_point(u_set, slot, Point(POINT_SURFACE, position_of(pixel, vec2(0.0), nearest), own.number, towards, own.seed, towards,
                                  nearest.t, none, 0.0, none, 1.0, u_color));
+    put_no_hit(u_set, slot, BVH_NONE);  // no material has a say in it
 }

@@ -10,7 +10,7 @@ from typing import Any
 from ..scene.graph import Graph, Link, Node
 from .closures import Closure, Leaf
 from .expr import Expr, constant, converted
-from .kinds import Outputs, kinds
+from .kinds import LIT, Outputs, kinds
 from .reader import Reader
 from .tree import Place, Source, Tree
 
@@ -37,6 +37,13 @@ class Built:
         if isinstance(fed, Expr):
             return Leaf("closure_emission", (converted(fed, "vec3"), constant(1.0)))
         return fed if isinstance(fed, Closure) else None
+
+    def lit(self) -> Closure | None:
+        """The shader whose light the tree asks for as a colour; of several the first."""
+        found = [outputs[LIT] for outputs in self._outputs.values() if LIT in outputs]
+        if len(found) > 1:
+            self._warn("light is asked for as a colour more than once; that of the first Shader to RGB stands for all")
+        return found[0] if found and isinstance(found[0], Closure) else None
 
     def value(self, end: str) -> Expr | None:
         """The expression at an end; None without one."""

@@ -21,6 +21,22 @@ from .emit import Datum, Writer
 from .traits import Traits, traits_of
 
 MOST_REMEMBERED = 1024
+STYLED = "styled"  # the function of a structure that goes on with light as a colour
+
+# Light that was spread sees the colours that full light gives, and no light of their own
+_SURFACE_OF_STYLED = """void surface(Geo g, inout Closures c)
+{
+    lit(g, c);
+    if (!c.wants_mean)
+        return;
+    lit_light = c.mean + c.emission;
+    Closures s = no_closures(g, c.chance, true);
+    styled(g, s);
+    c = s;
+    c.mean += c.emission;
+    c.emission = vec3(0.0);
+}
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +122,15 @@ def _compile(graph: Graph) -> One:
     notes: dict[str, None] = {}
     built = Built(graph, {"surface": graph.surface, "displacement": graph.displacement}, notes.setdefault)
     found = leaves(built.shader("surface"))
-    writer = Writer()
-    writer.closures(found, normal_of(graph, built))
+    writer, normal = Writer(), normal_of(graph, built)
+    if (lit := built.lit()) is not None:
+        # First the point is what is lit, then the tree goes on with that light
+        writer.use("nodes/style.glsl")
+        found_lit = leaves(lit)
+        writer.closures(found_lit, normal, "lit")
+        writer.closures(found, normal, STYLED)
+        writer.add(_SURFACE_OF_STYLED)
+        found = [*found_lit, *found]
+    else:
+        writer.closures(found, normal)
     return One(writer.text(), tuple(writer.data), writer.n_values, traits_of(found), tuple(notes))

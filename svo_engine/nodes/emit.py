@@ -52,18 +52,23 @@ class Writer:
         text = "\n".join(f"    {line}" for line in [*begin, *lines, *end(code)])
         self._functions.append(f"{head}\n{{\n{text}\n}}\n")
 
-    def closures(self, found: Sequence[Weighted], normal: Expr | None = None) -> None:
-        """Add `surface`, which fills in the closures of a point. normal: what takes the place of its own."""
+    def closures(self, found: Sequence[Weighted], normal: Expr | None = None, name: str = "surface") -> None:
+        """Add a function which fills in the closures of a point. normal: what takes the place of its own."""
         begin = []
         if normal is not None:
-            self.value("vec3 displaced_normal(Geo g)", normal)
+            if "displaced_normal" not in "".join(self._functions):
+                self.value("vec3 displaced_normal(Geo g)", normal)
             begin = ["g.normal = displaced_normal(g);", "c = no_closures(g, c.chance, c.wants_mean);"]
         roots = [expr for w in found for expr in (w.weight, *w.leaf.arguments)]
 
         def end(code: Any) -> list[str]:
             return [self._closure(w, code) for w in found]
 
-        self.function("void surface(Geo g, inout Closures c)", roots, end, begin)
+        self.function(f"void {name}(Geo g, inout Closures c)", roots, end, begin)
+
+    def add(self, text: str) -> None:
+        """Add a function as it stands."""
+        self._functions.append(text)
 
     def value(self, head: str, expr: Expr) -> None:
         """Add a function that returns the expression."""

@@ -98,7 +98,7 @@ def _evaluate(device: Device, scratch: GpuScope, trees: Trees, texels: Texels, c
         points: Resources = {"Wave": wave, "u_stride": n, "u_set": 0, "u_arrivals": 0, "u_draws": 0}
         device.dispatch(HITS, n, **common, **points, **baked, Rows=texels.buffer, u_start=start, u_cell=cell)
         slots: Resources = {"List": unlisted, "u_is_listed": False, "u_n_all": n}
-        evaluate_trees(device, trees, n, {**given, **points, **slots, "u_footprint": (cell, 0.0), "u_depth": 1,
+        evaluate_trees(device, trees.passes, n, {**given, **points, **slots, "u_footprint": (cell, 0.0), "u_depth": 1,
                                           "u_rays": CONSTANTS["RAY_DIFFUSE"], "u_wants_mean": True,
                                           "u_may_pass": False})
         device.dispatch(STORE, n, **points, **baked, Instances=None, Triangles=None, CornerUvs=None, SlotMaterials=None,

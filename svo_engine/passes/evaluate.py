@@ -34,7 +34,14 @@ def evaluate(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: 
         device.dispatch(PRINCIPLED, part.n, **gpu_scene.materials, **common, u_albedo=gpu_scene.table.table,
                         u_takes_all=False)
     of_trees = _of_trees(gpu_scene, eye, parts.of(part, EYE), slots, "RAY_CAMERA", 0)
-    evaluate_trees(device, gpu_scene.trees, part.n, {**of_trees, "u_may_pass": may_pass})
+    evaluate_trees(device, gpu_scene.trees.passes, part.n, {**of_trees, "u_may_pass": may_pass})
+
+
+def restyle(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part) -> None:
+    """Have the trees that ask for light as a colour go on with that of their points, which are lit by now."""
+    if styles := gpu_scene.trees.styles:
+        given = _of_trees(gpu_scene, eye, parts.of(part, EYE), all_slots(parts, part), "RAY_CAMERA", 0)
+        evaluate_trees(device, styles, part.n, {**given, "u_gloss": parts.planes["gloss"]})
 
 
 def see_through(device: Device, gpu_scene: GpuScene, eye: Eye, tracer: Tracer, parts: Parts, part: Part) -> None:
@@ -55,7 +62,7 @@ def see_through(device: Device, gpu_scene: GpuScene, eye: Eye, tracer: Tracer, p
         device.dispatch(PRINCIPLED, n, **gpu_scene.geometry, **gpu_scene.materials, **points, **slots,
                         u_albedo=gpu_scene.table.table, u_takes_all=True)
         of_trees = _of_trees(gpu_scene, eye, points, slots, "RAY_CAMERA", depth)
-        evaluate_trees(device, gpu_scene.trees, n, {**of_trees, "u_may_pass": depth < MOST_PASSED})
+        evaluate_trees(device, gpu_scene.trees.passes, n, {**of_trees, "u_may_pass": depth < MOST_PASSED})
 
 
 def evaluate_met(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, part: Part, n: int,
@@ -67,7 +74,7 @@ def evaluate_met(device: Device, gpu_scene: GpuScene, eye: Eye, parts: Parts, pa
     device.dispatch(PRINCIPLED, n, **gpu_scene.geometry, **gpu_scene.materials, **parts.of(part, parts.met), **slots,
                     u_albedo=gpu_scene.table.table, u_takes_all=True)
     given = _of_trees(gpu_scene, eye, parts.of(part, parts.met), slots, "RAY_GLOSSY", 1)
-    evaluate_trees(device, gpu_scene.trees, n, given)
+    evaluate_trees(device, gpu_scene.trees.passes, n, given)
 
 
 def _of_trees(gpu_scene: GpuScene, eye: Eye, points: Resources, slots: Resources, rays: str, depth: int) -> Resources:

@@ -12,6 +12,8 @@ from ..closures import Closure
 from ..expr import Expr
 from ..reader import Reader
 
+LIT = "light of"  # an output that is no socket: the shader whose light the others tell of
+
 Outputs = Mapping[str, Expr | Closure | None]
 Kind = Callable[[Reader], Outputs]
 

@@ -13,11 +13,12 @@ from ...gpu.device import Device
 from ...gpu.passes import Pass
 from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
-from ...nodes.compile import Compiled, compile_materials
+from ...nodes.compile import STYLED, Compiled, compile_materials
 from ...scene.layouts import CONSTANTS
 from ...scene.types import Image, Material, Scene
 
 TEMPLATE = "evaluate/tree.comp.glsl"
+STYLE = "evaluate/style.comp.glsl"
 BUSY = 1 << 17  # invocations that keep a graphics card busy
 SHARE = 16  # slots of an invocation, where the processor renders
 PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text stands for
@@ -25,22 +26,25 @@ PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text st
 
 @dataclass(frozen=True, eq=False)
 class Trees:
-    """passes: the evaluating program of each of the compiled structures; values: the buffer of bind/geo.glsl."""
+    """passes: the evaluating program of each of the compiled structures, by its number; styles: of those that go on with
+    light as a colour the program that does; values: the buffer of bind/geo.glsl.
+    """
 
     scope: GpuScope
     compiled: Compiled
-    passes: tuple[Pass, ...]
+    passes: Mapping[int, Pass]
+    styles: Mapping[int, Pass]
     values: Buffer
 
     @property
     def variants(self) -> tuple[tuple[Pass, Mapping[str, bool]], ...]:
         """What a frame must have compiled."""
-        return tuple((pass_, {}) for pass_ in self.passes)
+        return tuple((pass_, {}) for pass_ in (*self.passes.values(), *self.styles.values()))
 
     @property
     def want_view(self) -> bool:
         """Whether any asks where the camera is."""
-        return any("u_view_from_world" in pass_.wanted for pass_ in self.passes)
+        return any("u_view_from_world" in pass_.wanted for pass_ in self.passes.values())
 
     def told(self) -> list[str]:
         """A sentence for each thing in a tree that is not as in Blender."""
@@ -56,7 +60,9 @@ def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[
         return names.get(name, len(images))
 
     compiled = compile_materials(materials, find_image)
-    return Trees(scope, compiled, tuple(map(tree_pass, compiled.structures)), scope.buffer("values", compiled.values))
+    styles = {i: tree_pass(text, STYLE) for i, text in enumerate(compiled.structures) if f" {STYLED}(" in text}
+    passes = {i: tree_pass(text) for i, text in enumerate(compiled.structures)}
+    return Trees(scope, compiled, passes, styles, scope.buffer("values", compiled.values))
 
 
 def with_stand_ins(device: Device, scene: Scene) -> Scene:
@@ -74,19 +80,19 @@ def with_stand_ins(device: Device, scene: Scene) -> Scene:
                                           for m, structure in zip(materials, compiled.structure_of, strict=True)))
 
 
-def evaluate_trees(device: Device, trees: Trees, n: int, given: Resources) -> None:
-    """Fill in the points of each structure, of n slots. These are looked through by fewer invocations than there are,
-    so that those that evaluate do it together.
+def evaluate_trees(device: Device, passes: Mapping[int, Pass], n: int, given: Resources) -> None:
+    """Run a program for each of the structures of these numbers, over n slots. These are looked through by fewer
+    invocations than there are, so that those that evaluate do it together.
 
     given  all that functions of shaders/nodes and the template can ask for, but u_step and u_program
     """
     n = -(-n // SHARE) if device.profiler.is_software else min(n, BUSY)
-    for i, pass_ in enumerate(trees.passes):
+    for i, pass_ in passes.items():
         whole = {**given, "u_step": n, "u_program": CONSTANTS["PROGRAM_TREE"] + i}
         device.dispatch(pass_, n, **{name: whole[name] for name in pass_.wanted})
 
 
 @lru_cache(1024)
-def tree_pass(text: str) -> Pass:
+def tree_pass(text: str, template: str = TEMPLATE) -> Pass:
     """The evaluating program of a structure; one object for each text, so that what is known of it stays."""
-    return Pass(TEMPLATE, texts={PLACE: text})
+    return Pass(template, texts={PLACE: text})
