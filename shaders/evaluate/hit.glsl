@@ -36,7 +36,7 @@ void evaluate(uint slot);
 // Slots are looked for first, and then filled in by all together: what nobody has is not computed.
 void main()
 {
-    uint i = u_first + gl_GlobalInvocationID.x, n = n_slots();
+    uint i = u_first + gl_GlobalInvocationID.x, n = i < u_end ? n_slots() : 0u;
     while (true) {
         while (i < n && !is_ours(slot_of(i)))
             i += u_step;

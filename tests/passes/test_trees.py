@@ -9,7 +9,7 @@ import numpy as np
 
 from svo_engine.scene.graph import Graph, Link, Node
 from svo_engine.scene.types import Camera, Material, Scene
-from tests import scenes
+from tests import scenes, variety
 from tests.on_gpu import film_of, picture_of
 from tests.rays import RAYS
 
@@ -93,3 +93,27 @@ def test_light_behind_what_lets_it_pass_is_seen(session):
     film = film_of(session, scene, **{**OPEN, "samples": 32})
     seen = film.planes["Combined"][..., :3]
     assert abs(seen.mean() - 1.875) < 4 * 2.5 / np.sqrt(32 * 256)
+
+
+def test_light_as_a_colour_is_the_light_that_the_point_sends(session):
+    """Shader to RGB of a Diffuse BSDF, sent out again: the picture of the Diffuse BSDF itself, whose means are the same
+    numbers in another order. Twice as strong, twice the picture."""
+    diffuse = Node("ShaderNodeBsdfDiffuse", inputs={"Color": (0.8, 0.4, 0.2, 1.0), "Roughness": 0.0, "Normal": None})
+    lit = Node("ShaderNodeShaderToRGB", inputs={"Shader": Link(0, "BSDF")})
+    sent = [Node("ShaderNodeEmission", inputs={"Color": Link(1, "Color"), "Strength": k}) for k in (1.0, 2.0)]
+    graphs = [Graph((diffuse,), Link(0, "BSDF")), *(Graph((diffuse, lit, s), Link(2, "Emission")) for s in sent)]
+    pictures = [picture_of(session, replace(glowing(graph), lights=(variety.bulb(),)), **OPEN)[..., :3]
+                for graph in graphs]
+    assert pictures[0].max() > 0.01
+    assert np.allclose(pictures[1], pictures[0], rtol=1e-5)
+    assert np.allclose(pictures[2], 2 * pictures[0], rtol=1e-5)
+
+
+def test_light_is_a_colour_once(session):
+    """A second Shader to RGB is told of."""
+    first, second = emission((1, 1, 1)).nodes[0], emission((1, 0, 0)).nodes[0]
+    asked = [Node("ShaderNodeShaderToRGB", inputs={"Shader": Link(i, "Emission")}) for i in (0, 1)]
+    sent = [Node("ShaderNodeEmission", inputs={"Color": Link(i, "Color"), "Strength": 1.0}) for i in (2, 3)]
+    both = Node("ShaderNodeAddShader", inputs={"Shader": Link(4, "Emission"), "Shader_001": Link(5, "Emission")})
+    graph = Graph((first, second, *asked, *sent, both), Link(6, "Shader"))
+    assert any("more than once" in s for s in film_of(session, glowing(graph), **OPEN).stats["limits"])

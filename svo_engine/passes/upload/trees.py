@@ -20,6 +20,7 @@ from ...scene.types import Image, Material, Scene
 TEMPLATE = "evaluate/tree.comp.glsl"
 STYLE = "evaluate/style.comp.glsl"
 BUSY = 1 << 17  # invocations that keep a graphics card busy
+GROUP = 64  # invocations of a workgroup
 SHARE = 16  # slots of an invocation, where the processor renders
 PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text stands for
 
@@ -86,7 +87,7 @@ def evaluate_trees(device: Device, passes: Mapping[int, Pass], n: int, given: Re
 
     given  all that functions of shaders/nodes and the template can ask for, but u_step and u_program
     """
-    n = -(-n // SHARE) if device.profiler.is_software else min(n, BUSY)
+    n = GROUP * -(-n // (GROUP * SHARE)) if device.profiler.is_software else min(n, BUSY)
     for i, pass_ in passes.items():
         whole = {**given, "u_step": n, "u_program": CONSTANTS["PROGRAM_TREE"] + i}
         device.dispatch(pass_, n, **{name: whole[name] for name in pass_.wanted})
