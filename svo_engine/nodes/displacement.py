@@ -15,7 +15,7 @@ def method_of(graph: Graph) -> str:
     return str(graph.settings.get("displacement_method", "BUMP"))
 
 
-def displacement_of(graph: Graph, built: Built) -> Expr | None:
+def displacement_of(built: Built) -> Expr | None:
     """Metres by which the surface moves, a vector in world space; None if nothing feeds it."""
     fed = built.value("displacement")
     return None if fed is None else converted(fed, "vec3")
@@ -23,7 +23,7 @@ def displacement_of(graph: Graph, built: Built) -> Expr | None:
 
 def normal_of(graph: Graph, built: Built) -> Expr | None:
     """The normal that takes the place of the surface's own; None where that stays."""
-    method, by = method_of(graph), displacement_of(graph, built)
+    method, by = method_of(graph), displacement_of(built)
     if by is None or isinstance(by, Constant) or method == "DISPLACEMENT":
         return None
     normal = call("normal_of_point")

@@ -27,7 +27,7 @@ PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text st
 
 @dataclass(frozen=True, eq=False)
 class Trees:
-    """passes: the evaluating program of each of the compiled structures, by its number; styles: of those that go on with
+    """passes: the evaluating program of each compiled structure, by its number; styles: of those that go on with
     light as a colour the program that does; values: the buffer of bind/geo.glsl.
     """
 
