@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 import pytest
 
-from svo_engine.blender.extract.graphs import N_SAMPLES
+from svo_engine.blender.extract.node_settings import N_SAMPLES
 from svo_engine.scene.graph import Link, packed, unpacked
 from tests.blender.build import Nodes, extracted, image, lamp, material, plane, world
 
@@ -272,6 +272,16 @@ def test_images_objects_and_records(empty):
     settings = by_name(graph, "Texture Coordinate").settings
     assert settings["object"] == "Guide"
     assert settings["object.matrix_world"][3::4] == (1, 2, 3, 1)
+
+
+def test_a_still_image_is_the_same_in_every_frame(empty):
+    nodes = material()
+    texture = nodes.new("TexImage")
+    texture.image = image([[(1, 0, 0, 1)]], "Red")
+    nodes.show(nodes.new("Emission", Color=texture))
+    before = graph_of(nodes)
+    empty.frame_set(empty.frame_current + 1)
+    assert extracted().materials[0].graph == before
 
 
 def test_volume_displacement_and_aovs(empty):

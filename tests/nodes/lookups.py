@@ -164,6 +164,7 @@ def _socket(sockets: Any, identifier: str) -> Any:
 
 def _read(node: Any) -> Node:
     """The node as a Graph has it, but for links."""
-    from svo_engine.blender.extract import graphs
+    from svo_engine.blender.extract.graphs import _inputs
+    from svo_engine.blender.extract.node_settings import settings_of_node
 
-    return Node(node.bl_idname, graphs._settings(node, {}), graphs._inputs(node, {}, {}), node.name)
+    return Node(node.bl_idname, settings_of_node(node, {}), _inputs(node, {}, {}), node.name)
