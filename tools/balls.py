@@ -2,7 +2,8 @@
 """`python -m tools.balls`: the sample shader_balls beside Cycles, each ball by itself, written to
 docs/benchmarks/shader_balls.md with a picture of both.
 
-The reference is kept in out/shader_balls.npz, for it takes Cycles longer than all the rest.
+The reference is kept in out/shader_balls.npz, for it takes Cycles longer than all the rest, and so is the extracted
+scene in out/shader_balls_scene.npz: with both a machine with a graphics card needs no Blender.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +21,7 @@ import numpy as np
 from svo_engine.film import encode_srgb
 from svo_engine.metrics import bias, rel_mse
 from svo_engine.render import Session
+from svo_engine.scene import store
 from svo_engine.scene.camera import make_view
 from svo_engine.scene.types import Scene, View
 from svo_engine.settings import RenderSettings
@@ -26,6 +29,7 @@ from svo_engine.settings import RenderSettings
 ROOT = Path(__file__).resolve().parents[1]
 SAMPLE = ROOT / "sample_blends/shader_balls.blend"
 KEPT = ROOT / "out/shader_balls.npz"
+SCENE = ROOT / "out/shader_balls_scene.npz"
 PAGE = ROOT / "docs/benchmarks/shader_balls.md"
 PICTURE = ROOT / "docs/images/shader_balls.jpg"
 N_BALLS = 24
@@ -50,15 +54,14 @@ def main() -> int:
     parser.add_argument("--width", type=int, default=320, metavar="PIXELS")
     parser.add_argument("--samples", type=int, default=64, metavar="N", help="of ours")
     parser.add_argument("--reference-samples", type=int, default=256, metavar="N", help="of Cycles, if none is kept")
-    parser.add_argument("--only-reference", action="store_true", help="render that and end")
+    parser.add_argument("--only-prepare", action="store_true", help="render the reference, extract the scene, and end")
     options = parser.parse_args()
     size = options.width, options.width * 3 // 4
+    scene = _scene()
     reference = _reference(size, options.reference_samples)
-    if options.only_reference:
+    if options.only_prepare:
         return 0
-    from svo_engine.blender.cli import extract_scene
-
-    scene, session = extract_scene(SAMPLE, None), Session()
+    session = Session()
     assert scene.camera
     view = make_view(replace(scene.camera, size=size))
     film = list(session.films(scene, view, replace(RenderSettings(), samples=options.samples)))[-1]
@@ -70,6 +73,18 @@ def main() -> int:
     _write(rows, size, options.samples, options.reference_samples, session.device_info()["renderer"])
     _save_picture(np.concatenate([reference, ours]))
     return 0
+
+
+def _scene() -> Scene:
+    """Extracted, or where there is no Blender the kept one."""
+    if find_spec("bpy") is None:
+        return store.load(SCENE)
+    from svo_engine.blender.cli import extract_scene
+
+    scene = extract_scene(SAMPLE, None)
+    SCENE.parent.mkdir(exist_ok=True)
+    store.save(scene, SCENE)
+    return scene
 
 
 def _reference(size: tuple[int, int], samples: int) -> np.ndarray:
