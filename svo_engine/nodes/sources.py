@@ -21,6 +21,9 @@ from .traits import traits_of
 
 MOST_REMEMBERED = 256
 
+# Functions of shaders/nodes that ask for the camera
+OF_VIEW = ("position_in_window", "position_in_camera", "view_vector", "view_depth", "view_distance")
+
 
 @dataclass(frozen=True, eq=False)
 class Shine:
@@ -64,6 +67,12 @@ def told(scene: Scene) -> list[str]:
         if not light.is_exact and light.graph:
             found.update(dict.fromkeys(f"Light '{light.name}': {n}" for n in lamp_tree(light.graph).shine.notes))
     return list(found)
+
+
+def wants_view(graph: Graph) -> bool:
+    """Whether a world looks another way when the camera is turned."""
+    trees = world_trees(graph)
+    return any(f"{name}(" in shine.tree.text for name in OF_VIEW for shine in (trees.light, trees.seen))
 
 
 def world_trees(graph: Graph) -> WorldTrees:

@@ -17,10 +17,12 @@ from ..nodes.compile import One
 from ..nodes.skies.suns import limb, points_on, suns_of
 from ..nodes.skies.tables import Disc
 from ..nodes.sources import Shine, values_of, world_trees
+from ..scene.camera import make_view
 from ..scene.graph import Graph
 from ..scene.layouts import CONSTANTS
-from ..scene.types import Image, Light
+from ..scene.types import Camera, Image, Light, View
 from .upload.pictures import upload_pictures
+from .upload.shading import view_uniforms
 from .upload.sky import SeenSun, Sky, sky_texture, upload_sky
 from .upload.trees import PLACE
 
@@ -29,21 +31,26 @@ TEMPLATE = "sources/evaluate.comp.glsl"
 # Texels from left to right of a world's picture: of one without images, and the most of one with some; by whether the
 # processor renders
 SIZES = {False: (2048, 4096), True: (1024, 2048)}
+SHARPEST = {False: (8192, 4096), True: (2048, 1024)}  # of one that is fixed to the camera's own picture
 
 _CAMERA, _DISC = CONSTANTS["RAY_CAMERA"], CONSTANTS["RAY_DISC"]
 _LIGHT = CONSTANTS["RAY_DIFFUSE"] | CONSTANTS["RAY_REFLECTION"]
 
 
-def make_sky(device: Device, image: Image | None, graph: Graph | None, images: tuple[Image, ...]) -> Sky:
-    """The world on the device: with its image, or, where its nodes say more than values can, those of its tree."""
+def make_sky(device: Device, image: Image | None, graph: Graph | None, images: tuple[Image, ...],
+             camera: Camera | None = None) -> Sky:
+    """The world on the device: with its image, or, where its nodes say more than values can, those of its tree.
+
+    camera  of worlds that look another way when it is turned
+    """
     if graph is None:
         return upload_sky(device, image)
     trees, suns = world_trees(graph), suns_of(graph)
-    pixels = _pixels(device, trees.light, images, _LIGHT)
+    pixels = _pixels(device, trees.light, images, _LIGHT, camera)
     sky = upload_sky(device, None if pixels is None else Image("world", pixels))
     lamps = tuple(lamp for sun in suns if (lamp := _sun_lamp(device, trees.light, images, sun)))
     if trees.seen is not trees.light:
-        seen = _pixels(device, trees.seen, images, _CAMERA)
+        seen = _pixels(device, trees.seen, images, _CAMERA, camera)
         sky = replace(sky, seen=None if seen is None else sky_texture(sky.scope, seen),
                       seen_color=trees.seen.color)
     notes = ("World: several suns light the scene, but the camera sees only the first one",) if len(suns) > 1 else ()
@@ -51,11 +58,13 @@ def make_sky(device: Device, image: Image | None, graph: Graph | None, images: t
                    notes=notes)
 
 
-def _pixels(device: Device, shine: Shine, images: tuple[Image, ...], rays: int) -> np.ndarray | None:
+def _pixels(device: Device, shine: Shine, images: tuple[Image, ...], rays: int,
+            camera: Camera | None) -> np.ndarray | None:
     """RGBA (height, width, 4) f4 of a world; None where it is one colour."""
     if shine.color is not None:
         return None
-    light = light_of_image(device, shine.tree, images, _size(device, shine, images), rays)
+    size = _size(device, shine, images) if camera is None else SHARPEST[device.profiler.is_software]
+    light = light_of_image(device, shine.tree, images, size, rays, camera)
     return np.concatenate([light, np.ones_like(light[..., :1])], 2)
 
 
@@ -107,13 +116,14 @@ def _disc(device: Device, shine: Shine, images: tuple[Image, ...], sun: Disc,
     return lit.astype("f8") - dark, share
 
 
-def light_of_image(device: Device, tree: One, images: tuple[Image, ...], size: tuple[int, int],
-                   rays: int) -> np.ndarray:
+def light_of_image(device: Device, tree: One, images: tuple[Image, ...], size: tuple[int, int], rays: int,
+                   camera: Camera | None = None) -> np.ndarray:
     """Radiance (height, width, 3) f4 of a world in all directions, as `environment.py` lays them out.
 
-    size  (width, height); rays: bits RAY_*
+    size  (width, height); rays: bits RAY_*; camera: for coordinates of its view
     """
-    light = _light(device, tree, images, size[0] * size[1], np.zeros((1, 3, 4), "f4"), size, rays)
+    view = make_view(replace(camera, world_from_camera=_turn(camera.world_from_camera))) if camera else None
+    light = _light(device, tree, images, size[0] * size[1], np.zeros((1, 3, 4), "f4"), size, rays, view=view)
     return light.reshape(size[1], size[0], 3)
 
 
@@ -136,7 +146,7 @@ def points_of_world(directions: np.ndarray) -> np.ndarray:
 
 
 def _light(device: Device, tree: One, images: tuple[Image, ...], n: int, points: np.ndarray, size: tuple[int, int],
-           rays: int, place: np.ndarray | None = None) -> np.ndarray:
+           rays: int, place: np.ndarray | None = None, view: View | None = None) -> np.ndarray:
     values, used = values_of(tree, _finder(images))
     pass_ = source_pass(tree.text)
     device.prepare([(pass_, {})])
@@ -145,7 +155,8 @@ def _light(device: Device, tree: One, images: tuple[Image, ...], n: int, points:
         scope.adopt(pictures.scope)
         made = scope.buffer("light of a source", 16 * n)
         given: dict[str, Resource] = {
-            **pictures.read, "Values": scope.buffer("values of a source", values), "Radiance": made, "u_size": size,
+            **pictures.read, **view_uniforms(view, np.zeros(3)), "Radiance": made, "u_size": size,
+            "Values": scope.buffer("values of a source", values),
             "Asked": scope.buffer("points of a source", points.astype("f4")), "u_rays": rays, "u_centre": (0, 0, 0),
             "u_place": np.eye(4) if place is None else place}
         resources: Any = {name: given.get(name) for name in pass_.wanted}
@@ -153,6 +164,13 @@ def _light(device: Device, tree: One, images: tuple[Image, ...], n: int, points:
         light = np.empty((n, 4), "f4")
         made.read_into(light)
     return light[:, :3]
+
+
+def _turn(matrix: np.ndarray) -> np.ndarray:
+    """A matrix (4, 4) without its translation: where the world is, the camera is in its middle."""
+    turned = matrix.copy()
+    turned[:3, 3] = 0
+    return turned
 
 
 def _finder(images: tuple[Image, ...]) -> Callable[[Any], int]:

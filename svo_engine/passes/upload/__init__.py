@@ -16,7 +16,7 @@ from ...gpu.device import Device
 from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...needs import Needs, needs_of
-from ...nodes.sources import settled
+from ...nodes.sources import settled, wants_view
 from ...scene.types import Scene
 from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
@@ -129,7 +129,8 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     tree = None if scene.world.is_exact else scene.world.graph
     images = () if all(light.is_exact for light in scene.lights) else scene.images
-    sky = make("sky", make_sky, world, tree, scene.images if tree else ())
+    camera = scene.camera if tree and wants_view(tree) else None
+    sky = make("sky", make_sky, world, tree, scene.images if tree else (), camera)
     return GpuScene(
         scope, scene, needs, placing, trees, shading, pictures, surfaces, looks,
         _opacity(scene, needs, trees, make, placing, pictures, looks),
