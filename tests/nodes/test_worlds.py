@@ -66,6 +66,18 @@ def test_sky_by_preetham(empty, device, tmp_path, sun, turbidity):
     assert_as_cycles_has_it(device, tmp_path)
 
 
+@pytest.mark.parametrize(("height", "turbidity", "albedo"), [(0.15, 2.5, 0.5), (0.7, 2.2, 0.3), (1.0, 6.7, 0.8)])
+def test_sky_by_hosek_and_wilkie(empty, device, tmp_path, height, turbidity, albedo):
+    """To 2 % of the brightest, half a percent in the mean: what interpolating between fitted skies leaves."""
+    nodes = world()
+    made = sky(nodes, sky_type="HOSEK_WILKIE", turbidity=turbidity, ground_albedo=albedo,
+               sun_direction=(np.cos(height) * 0.6, np.cos(height) * 0.8, np.sin(height)))
+    nodes.show(nodes.new("Background", Color=made))
+    ours, theirs = domes.by_us(device), domes.by_cycles(tmp_path)
+    np.testing.assert_allclose(ours, theirs, atol=0.02 * theirs.max())
+    assert ours.mean() == pytest.approx(theirs.mean(), rel=0.005)
+
+
 # Of a panoramic picture by Blender 4.2.23: directions and what is seen there
 BLENDER_4 = (
     ((-0.772377, -0.489076, 0.405263), (1.558647, 2.470566, 3.730336)),

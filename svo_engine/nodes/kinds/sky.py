@@ -19,12 +19,10 @@ def sky(n: Reader) -> Outputs:
     """The sky in the direction of a vector."""
     direction = mapped(n, n.vector("Vector", n.generated))
     model, settings = n.setting("sky_type"), n.node.settings
-    if model in ("PREETHAM", "HOSEK_WILKIE"):
-        if model == "HOSEK_WILKIE":
-            n.warn("the sky by Hosek and Wilkie is not supported; the one by Preetham is used")
+    if model == "PREETHAM":
         parameters = preetham(n.setting("sun_direction"), n.setting("turbidity"))
         return {"Color": n.call("sky_preetham", direction, n.table(parameters.tolist()))}
-    if model not in ("NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
+    if model not in ("HOSEK_WILKIE", "NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
         n.warn(f"the sky of type {model} is not known; it is black")
         return {"Color": n.value((0.0, 0.0, 0.0))}
     function = "sky_nishita" if model == "NISHITA" else "sky_scattering"

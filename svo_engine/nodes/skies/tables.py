@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import multiple, single
+from .hosek import hosek
 
 WIDE = 256  # columns of a table, half a turn: the other half is its mirror image
 SMALLEST = 0.0005  # radians: the sun's least size
@@ -49,7 +50,10 @@ class Disc:
 
 
 def sun_of(settings: Mapping[str, Any]) -> Sun:
-    """The sun, wherever its angles have been turned to."""
+    """The sun, wherever its angles have been turned to; of the daylight models its direction."""
+    if settings["sky_type"] == "HOSEK_WILKIE":
+        x, y, z = np.array(settings["sun_direction"]) / max(float(np.linalg.norm(settings["sun_direction"])), 1e-8)
+        return Sun(float(np.arcsin(np.clip(z, -1, 1))), float(np.arctan2(x, y)))
     elevation, rotation = float(settings["sun_elevation"]), float(settings["sun_rotation"])
     elevation = (elevation + np.pi) % (2 * np.pi) - np.pi
     if abs(elevation) > np.pi / 2:
@@ -72,12 +76,16 @@ def disc_of(settings: Mapping[str, Any]) -> Disc | None:
 
 
 def table_of(settings: Mapping[str, Any]) -> np.ndarray:
-    """CIE XYZ (rows, WIDE, 3) f4 of a sky by scattering, without its sun's disc.
+    """CIE XYZ (rows, WIDE, 3) f4 of a sky by scattering or by Hosek and Wilkie, without its sun's disc.
 
     Column x is (x + 1/2) / (2 WIDE) of a turn from where the sun is not. Rows of Blender 5's models: a row's share s of
     the whole, less 1/2, is half the root of the elevation's share of a right angle, with its sign; of Blender 4's:
     s is that root itself.
     """
+    if settings["sky_type"] == "HOSEK_WILKIE":
+        rows, azimuths = tuple(_rows(0.5).tolist()), tuple(_azimuths(0.5).tolist())
+        return hosek(sun_of(settings).elevation, float(settings["turbidity"]), float(settings["ground_albedo"]), rows,
+                     azimuths)
     altitude, densities = _air(settings)
     return _table(str(settings["sky_type"]), sun_of(settings).elevation, altitude, densities)
 
@@ -95,11 +103,17 @@ def _table(kind: str, elevation: float, altitude: float, densities: tuple[float,
 def _square(model: Any, offset: float, elevation: float, altitude: float,
             densities: tuple[float, float, float]) -> np.ndarray:
     """256 rows, pixels at their middle (offset 1/2) or at their corner. Single scattering begins at the horizon."""
-    share = (np.arange(2 * 128) + offset) / 128 - 1
-    rows = np.copysign(share**2, share) * np.pi / 2
+    rows = _rows(offset)
     if model is single:
         rows = rows[128:]
     return model.sky(rows, _azimuths(offset), elevation, altitude, densities)
+
+
+def _rows(offset: float) -> np.ndarray:
+    """(256,) f8, radians above the horizon."""
+    share = (np.arange(2 * 128) + offset) / 128 - 1
+    rows: np.ndarray = np.copysign(share**2, share) * np.pi / 2
+    return rows
 
 
 def _over_black_ground(sky: np.ndarray) -> np.ndarray:
