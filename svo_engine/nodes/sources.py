@@ -15,7 +15,7 @@ from .build import Built
 from .closures import Leaf, Weighted, leaves
 from .compile import One
 from .emit import Writer
-from .expr import Constant, Expr
+from .expr import Constant, Expr, Literal
 from .rays import CAMERA, LAMP, LIGHT, Falloff, asks_for_rays, of_lamp, seen_by, without_falloff
 from .traits import traits_of
 
@@ -128,11 +128,15 @@ def _lamp_tree(graph: Graph) -> LampTree:
 def _shine(graph: Graph) -> Shine:
     notes: dict[str, None] = {}
     found = [w for w in leaves(Built(graph, {"surface": graph.surface}, notes.setdefault).shader("surface"))
-             if w.leaf.name == "closure_emission" and not (isinstance(w.weight, Constant) and w.weight.value == (0.0,))]
+             if w.leaf.name == "closure_emission" and not _is_nothing(w.weight)]
     writer = Writer()
     writer.closures(found)
     tree = One(writer.text(), tuple(writer.data), writer.n_values, traits_of(found), tuple(notes))
     return Shine(_constant(found), tree, tuple(notes))
+
+
+def _is_nothing(weight: Expr) -> bool:
+    return isinstance(weight, (Constant, Literal)) and weight.value == (0.0,)
 
 
 def _constant(found: list[Weighted]) -> Color | None:
@@ -141,9 +145,9 @@ def _constant(found: list[Weighted]) -> Color | None:
     for weighted in found:
         leaf: Leaf = weighted.leaf
         parts: list[Expr] = [weighted.weight, *leaf.arguments]
-        if not all(isinstance(part, Constant) for part in parts):
+        if not all(isinstance(part, (Constant, Literal)) for part in parts):
             return None
-        weight, color, strength = (np.array(part.value) for part in parts if isinstance(part, Constant))
+        weight, color, strength = (np.array(part.value) for part in parts if isinstance(part, (Constant, Literal)))
         total = total + weight * strength * color
     r, g, b = total.tolist()
     return r, g, b
