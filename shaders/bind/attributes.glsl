@@ -88,10 +88,29 @@ vec3 point_to_object(Geo g, vec3 p)
     return inverse_of(world_from_object(g)) * (p - object_location(g));
 }
 
+// Where the point was before its mesh was moved; first: of its positions.
+vec3 rest_position(Geo g, uint first)
+{
+    uvec3 corners = triangles[g.triangle].xyz;
+    vec3 p[3];
+    for (int c = 0; c < 3; c++) {
+        uint i = first + 3u * corners[c];
+        p[c] = uintBitsToFloat(uvec3(attribute_word(i), attribute_word(i + 1u), attribute_word(i + 2u)));
+    }
+    return p[0] + g.bary.x * (p[1] - p[0]) + g.bary.y * (p[2] - p[0]);
+}
+
+bool is_at_rest(Geo g)
+{
+    return (g.rays & AT_REST) != 0u && shown[g.instance].rest != NO_REST;
+}
+
 // The point itself in object space, metres: from the corners, which is exact.
 vec3 position_os(Geo g)
 {
     if (!has_object(g))
+        return point_to_object(g, g.position);
+    if (is_at_rest(g))
         return point_to_object(g, g.position);
     uvec4 corners = triangles[g.triangle];
     vec3 a = vertex_os(corners.x);
@@ -119,11 +138,21 @@ vec3 normal_from_object(Geo g, vec3 n)
     return unit_or_zero(transpose(inverse_of(world_from_object(g))) * n);
 }
 
+// The same point before its mesh was moved.
+Geo at_rest(Geo g)
+{
+    g.rays |= AT_REST;
+    if (has_object(g) && is_at_rest(g))
+        g.position = to_world(instances[g.instance], rest_position(g, shown[g.instance].rest)) + u_centre;
+    return g;
+}
+
 // 0 to 1 in the box of the mesh's own coordinates.
 vec3 generated_at(Geo g)
 {
     if (!has_object(g))
         return position_os(g);
     Shown s = shown[g.instance];
-    return (position_os(g) - s.low) / mix(s.size, vec3(1.0), equal(s.size, vec3(0.0)));
+    vec3 p = s.rest == NO_REST ? position_os(g) : rest_position(g, s.rest);
+    return (p - s.low) / mix(s.size, vec3(1.0), equal(s.size, vec3(0.0)));
 }

@@ -8,6 +8,8 @@ layout(std430) readonly buffer Values { uint values[]; };  // of all materials: 
 uniform vec3 u_centre;      // world, metres: what positions on the device are relative to
 uniform vec2 u_footprint;   // width of a pixel: metres, and metres for each metre of the ray
 
+const uint AT_REST = 0x80000000u;  // among g.rays: positions are those before the mesh was moved
+
 struct Geo {
     uint instance;
     uint triangle;
@@ -76,6 +78,10 @@ Geo shifted(Geo g, int axis, float width)
 {
     vec2 by = width * (axis == 0 ? g.dx : g.dy);
     g.bary += by;
+    if ((g.rays & AT_REST) != 0u) {  // along the moved surface, as Cycles does it
+        g.position += width * (u_footprint.x + u_footprint.y * g.t) * across(g.normal_geometric)[axis];
+        return g;
+    }
     g.position += by.x * edge(g.instance, g.triangle, 1u) + by.y * edge(g.instance, g.triangle, 2u);
     return g;
 }

@@ -9,6 +9,7 @@ const uint ATTRIBUTE_POINT = 1u;
 const uint ATTRIBUTE_FACE = 2u;
 const uint ATTRIBUTE_CORNER = 3u;
 const uint ATTRIBUTE_INSTANCE = 4u;
+const uint NO_REST = 4294967295u;
 const uint WORDS_WIDTH = 4096u;
 const uint WORDS_HEIGHT = 1024u;
 const uint EXTENSION_REPEAT = 0u;
@@ -133,6 +134,7 @@ struct Shown {
     uint first_row;
     vec2 uv;
     uint number;
+    uint rest;
 };
 
 struct Light {
@@ -218,4 +220,12 @@ struct Cluster {
     uint reference;
     vec3 high;
     uint tree_height;
+};
+
+struct MovedCorner {
+    vec3 normal;
+    uint instance;
+    uint triangle;
+    uint corner;
+    uint first_value;
 };

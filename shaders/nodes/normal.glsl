@@ -63,13 +63,24 @@ vec3 bumped_normal(Geo g, float h, float hx, float hy, vec3 normal, float streng
     return lifted_normal(d[0], d[1], h, hx, hy, normal, strength, distance, width);
 }
 
+// As footprint, in object space and before the mesh was moved.
+mat2x3 rest_footprint(Geo g, uint first)
+{
+    Geo x = g, y = g;
+    x.bary += g.dx;
+    y.bary += g.dy;
+    vec3 p = rest_position(g, first);
+    return mat2x3(rest_position(x, first) - p, rest_position(y, first) - p);
+}
+
 // The same in object space: heights grow with the object.
 vec3 bumped_normal_of_object(Geo g, float h, float hx, float hy, vec3 normal, float strength, float distance, float width)
 {
     if (!has_object(g))
         return normal;
-    mat2x3 d = footprint(g);
-    vec3 dx = direction_to_object(g, d[0]), dy = direction_to_object(g, d[1]), n = normal_to_object(g, normal);
+    mat2x3 d = is_at_rest(g) ? rest_footprint(g, shown[g.instance].rest) : footprint(g);
+    vec3 n = normal_to_object(g, normal);
+    vec3 dx = is_at_rest(g) ? d[0] : direction_to_object(g, d[0]), dy = is_at_rest(g) ? d[1] : direction_to_object(g, d[1]);
     return normal_from_object(g, lifted_normal(dx, dy, h, hx, hy, n, strength, distance, width));
 }
 

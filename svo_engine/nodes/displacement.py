@@ -21,6 +21,13 @@ def displacement_of(built: Built) -> Expr | None:
     return None if fed is None else converted(fed, "vec3")
 
 
+def move_of(graph: Graph, built: Built) -> Expr | None:
+    """By what vertices move; None where they do not."""
+    by = displacement_of(built)
+    is_zero = by is None or (isinstance(by, Constant) and not any(by.value))
+    return None if is_zero or method_of(graph) == "BUMP" else by
+
+
 def normal_of(graph: Graph, built: Built) -> Expr | None:
     """The normal that takes the place of the surface's own; None where that stays."""
     method, by = method_of(graph), displacement_of(built)

@@ -52,12 +52,16 @@ class Writer:
         text = "\n".join(f"    {line}" for line in [*begin, *lines, *end(code)])
         self._functions.append(f"{head}\n{{\n{text}\n}}\n")
 
-    def closures(self, found: Sequence[Weighted], normal: Expr | None = None, name: str = "surface") -> None:
-        """Add a function which fills in the closures of a point. normal: what takes the place of its own."""
+    def closures(self, found: Sequence[Weighted], normal: Expr | None = None, name: str = "surface",
+                 is_at_rest: bool = False) -> None:
+        """Add a function which fills in the closures of a point.
+
+        normal  what takes the place of its own; is_at_rest: computed where the mesh was before it was moved
+        """
         begin = []
         if normal is not None:
             if "displaced_normal" not in "".join(self._functions):
-                self.value("vec3 displaced_normal(Geo g)", normal)
+                self.value("vec3 displaced_normal(Geo g)", normal, ["g = at_rest(g);"] if is_at_rest else [])
             begin = ["g.normal = displaced_normal(g);", "c = no_closures(g, c.chance, c.wants_mean);"]
         roots = [expr for w in found for expr in (w.weight, *w.leaf.arguments)]
 
@@ -70,9 +74,9 @@ class Writer:
         """Add a function as it stands."""
         self._functions.append(text)
 
-    def value(self, head: str, expr: Expr) -> None:
+    def value(self, head: str, expr: Expr, begin: Sequence[str] = ()) -> None:
         """Add a function that returns the expression."""
-        self.function(head, [expr], lambda code: [f"return {code(expr)};"])
+        self.function(head, [expr], lambda code: [f"return {code(expr)};"], begin)
 
     def text(self) -> str:
         """All of it, with the files that it calls."""

@@ -49,9 +49,16 @@ PICTURE: Fields = (("first_word", "uint"), ("format", "uint"), ("width", "int"),
                    ("is_associated", "uint"), ("tile", "int"), ("n_tiles", "uint"))
 
 # What trees ask for of an instance. low, size: the box of the mesh's generated coordinates, metres, object space;
-# number: its place in the scene's order; first_row: of its mesh among the attributes
+# number: its place in the scene's order; first_row: of its mesh among the attributes; rest: where those positions of
+# its mesh begin that generated coordinates are of, counted as attributes are, or NO_REST
 SHOWN: Fields = (("color", "vec4"), ("low", "vec3"), ("random", "float"), ("size", "vec3"), ("object_index", "int"),
-                 ("generated", "vec3"), ("first_row", "uint"), ("uv", "vec2"), ("number", "uint"))
+                 ("generated", "vec3"), ("first_row", "uint"), ("uv", "vec2"), ("number", "uint"),
+                 ("rest", "uint"))
+
+# A vertex that a material moves: a triangle that has it as its corner, in the device's numbers, and its normal in
+# object space
+MOVED_CORNER: Fields = (("normal", "vec3"), ("instance", "uint"), ("triangle", "uint"), ("corner", "uint"),
+                        ("first_value", "uint"))
 
 # `scene.types.Light`; axes are unit vectors, the lamp shines along -axis_z. size: half extents (AREA), radius in
 # size.x (POINT, SPOT), tangent of half the angle in size.x (SUN). spot: cosine of half the angle, blend. table: first
@@ -98,11 +105,11 @@ CLUSTER: Fields = (("low", "vec3"), ("reference", "uint"), ("high", "vec3"), ("t
 STRUCTS = {"Instance": INSTANCE, "Material": MATERIAL, "Opacity": OPACITY, "Emission": EMISSION, "Texture": TEXTURE,
            "Picture": PICTURE, "Shown": SHOWN, "Light": LIGHT, "LightNode": LIGHT_NODE, "Emitter": EMITTER,
            "Voxel": VOXEL, "Surfel": SURFEL, "SurfelColors": SURFEL_COLORS, "BvhNode": BVH_NODE,
-           "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER}
+           "BvhTriangle": BVH_TRIANGLE, "BvhInstance": BVH_INSTANCE, "Cluster": CLUSTER, "MovedCorner": MOVED_CORNER}
 
 CONSTANTS = {"FORMAT_SRGB8": 0, "FORMAT_LINEAR8": 1, "FORMAT_FLOAT": 2,
              "ATTRIBUTE_POINT": 1, "ATTRIBUTE_FACE": 2, "ATTRIBUTE_CORNER": 3, "ATTRIBUTE_INSTANCE": 4,
-             "WORDS_WIDTH": 4096, "WORDS_HEIGHT": 1024,
+             "NO_REST": 0xffffffff, "WORDS_WIDTH": 4096, "WORDS_HEIGHT": 1024,
              "EXTENSION_REPEAT": 0, "EXTENSION_EXTEND": 1, "EXTENSION_CLIP": 2, "EXTENSION_MIRROR": 3,
              "FALLOFF_QUADRATIC": 0, "FALLOFF_LINEAR": 1, "FALLOFF_CONSTANT": 2,
              "LIGHT_POINT": 0, "LIGHT_SUN": 1, "LIGHT_SPOT": 2, "LIGHT_AREA": 3,

@@ -17,6 +17,7 @@ from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...needs import Needs, needs_of
 from ...nodes.sources import settled, wants_view
+from ...scene.geometry import with_fields
 from ...scene.types import Scene
 from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
@@ -114,6 +115,7 @@ def trees_of(scene: Scene, make: Make) -> Trees:
 def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Make) -> GpuScene:
     """The scene from parts: `make(name, function, *inputs, n_kept)` gives function(device, *inputs), or a kept one."""
     from ..bake import bake  # which need this package
+    from ..displace import displace
     from ..lights.lamps import make_lamps
     from ..sources import make_sky
 
@@ -125,6 +127,12 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     table = make("albedo", albedo, needs.principled or needs.trees, n_kept=2)
     asked = trees.compiled.attributes if trees.passes else None
     shading = make("shading", upload_shading, placing, scene.meshes, scene.instances, asked)
+    if trees.movers:
+        moved = make("displaced", displace, placing, shading, surfaces, trees, scene.meshes)
+        scene = with_fields(scene, meshes=moved.meshes)
+        shapes = make("displaced shapes", upload_shapes, scene.meshes, needs.textures)
+        placing = make("displaced placing", place, shapes, scene.instances)
+        shading = make("displaced shading", upload_shading, placing, scene.meshes, scene.instances, asked)
     looks = make("looks", bake, placing, surfaces, trees, table, shading, scene.camera if trees.want_view else None)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     tree = None if scene.world.is_exact else scene.world.graph

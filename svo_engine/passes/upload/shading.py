@@ -13,6 +13,7 @@ from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...gpu.words import WIDTH
 from ...scene import layouts
+from ...scene.moved import REST
 from ...scene.named import named_attribute
 from ...scene.types import Attribute, Instances, Mesh, View
 from .placing import Placing
@@ -37,11 +38,17 @@ def upload_shading(device: Device, placing: Placing, meshes: tuple[Mesh, ...], i
         empty = scope.buffer("shown instances", 0)
         return Shading(scope, {"ShownInstances": empty, "u_attributes": scope.words("attributes", 0)})
     rows, parts, n_words = _attributes(placing, meshes, instances, names)
+    rests = np.full(len(meshes), layouts.CONSTANTS["NO_REST"], "u4")
+    for m, mesh in enumerate(meshes):
+        if (rest := mesh.attribute(REST)) is not None:
+            start = -(-n_words // WIDTH) * WIDTH
+            parts.append((start, np.ascontiguousarray(rest.values).ravel().view("u4")))
+            rests[m], n_words = (start - 3 * int(placing.shapes.first_vertex[m])) % 2**32, start + rest.values.size
     words = scope.words("attributes", n_words)
     words.put(0, rows.ravel())
     for first, values in parts:
         words.put(first, values)
-    shown = scope.buffer("shown instances", _shown(placing, meshes, instances, len(names)))
+    shown = scope.buffer("shown instances", _shown(placing, meshes, instances, len(names), rests))
     return Shading(scope, {"ShownInstances": shown, "u_attributes": words})
 
 
@@ -74,13 +81,15 @@ def _first_element(placing: Placing, m: int, attribute: Attribute) -> int:
             "CORNER": 3 * int(shapes.first_triangle[m]), "INSTANCE": 0}[attribute.domain]
 
 
-def _shown(placing: Placing, meshes: tuple[Mesh, ...], instances: Instances, n_names: int) -> np.ndarray:
+def _shown(placing: Placing, meshes: tuple[Mesh, ...], instances: Instances, n_names: int,
+           rests: np.ndarray) -> np.ndarray:
     """Rows of layout SHOWN, in the device's order."""
     rows = np.zeros(len(instances), layouts.dtype(layouts.SHOWN))
     if len(instances):
         lows, sizes = (np.array([getattr(m, f"generated_{what}") for m in meshes], "f4") for what in ("low", "size"))
         order, mesh = placing.order, instances.mesh[placing.order]
         rows["low"], rows["size"], rows["first_row"], rows["number"] = lows[mesh], sizes[mesh], mesh * n_names, order
+        rows["rest"] = rests[mesh]
         for name in ("random", "object_index", "color", "generated", "uv"):
             if len(values := getattr(instances, name)):
                 rows[name] = values[order]

@@ -28,19 +28,20 @@ PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text st
 @dataclass(frozen=True, eq=False)
 class Trees:
     """passes: the evaluating program of each compiled structure, by its number; styles: of those that go on with
-    light as a colour the program that does; values: the buffer of bind/geo.glsl.
+    light as a colour the program that does; movers: that of each displacement; values: the buffer of bind/geo.glsl.
     """
 
     scope: GpuScope
     compiled: Compiled
     passes: Mapping[int, Pass]
     styles: Mapping[int, Pass]
+    movers: tuple[Pass, ...]
     values: Buffer
 
     @property
     def variants(self) -> tuple[tuple[Pass, Mapping[str, bool]], ...]:
         """What a frame must have compiled."""
-        return tuple((pass_, {}) for pass_ in (*self.passes.values(), *self.styles.values()))
+        return tuple((pass_, {}) for pass_ in (*self.passes.values(), *self.styles.values(), *self.movers))
 
     @property
     def want_view(self) -> bool:
@@ -63,7 +64,8 @@ def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[
     compiled = compile_materials(materials, find_image)
     styles = {i: tree_pass(text, STYLE) for i, text in enumerate(compiled.structures) if f" {STYLED}(" in text}
     passes = {i: tree_pass(text) for i, text in enumerate(compiled.structures)}
-    return Trees(scope, compiled, passes, styles, scope.buffer("values", compiled.values))
+    movers = tuple(map(mover_pass, compiled.movers))
+    return Trees(scope, compiled, passes, styles, movers, scope.buffer("values", compiled.values))
 
 
 def with_stand_ins(device: Device, scene: Scene) -> Scene:
@@ -91,6 +93,12 @@ def evaluate_trees(device: Device, passes: Mapping[int, Pass], n: int, given: Re
     for i, pass_ in passes.items():
         whole = {**given, "u_step": n, "u_program": CONSTANTS["PROGRAM_TREE"] + i}
         device.dispatch(pass_, n, **{name: whole[name] for name in pass_.wanted})
+
+
+@lru_cache(1024)
+def mover_pass(text: str) -> Pass:
+    """The program that moves vertices by a displacement."""
+    return Pass("displace/vertices.comp.glsl", texts={"nodes/mover.glsl": text})
 
 
 @lru_cache(1024)
