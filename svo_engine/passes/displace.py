@@ -35,7 +35,7 @@ def displace(device: Device, placing: Placing, shading: Shading, surfaces: Surfa
     """Move the vertices of all meshes that materials move."""
     made = list(meshes)
     given = {**placing.geometry, **surfaces.materials, **shading.read, **view_uniforms(None, placing.centre_ws),
-             "Values": trees.values, "u_centre": placing.centre_ws, "u_footprint": (1e-3, 0.0)}
+             "Values": trees.values, "u_centre": placing.centre_ws, "u_place": np.eye(4), "u_footprint": (1e-3, 0.0)}
     movers = trees.compiled.mover_of
     for m, instance in _first_instances(placing, movers):
         material = _materials(placing, meshes[m], instance)
