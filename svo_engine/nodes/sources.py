@@ -72,7 +72,7 @@ def told(scene: Scene) -> list[str]:
 def wants_view(graph: Graph) -> bool:
     """Whether a world looks another way when the camera is turned."""
     trees = world_trees(graph)
-    return any(f"{name}(" in shine.tree.text for name in OF_VIEW for shine in (trees.light, trees.seen))
+    return any(f"{name}(" in shine.tree.surface.text for name in OF_VIEW for shine in (trees.light, trees.seen))
 
 
 def world_trees(graph: Graph) -> WorldTrees:
