@@ -41,6 +41,7 @@ void evaluate(uint slot)
     Geo g = geo_at(seen, hit.instance, hit.triangle, hit.bary, wo, hit.t, u_rays, u_depth, first);
     Closures c = no_closures(g, closure_chance(hit), u_wants_mean);
     surface(g, c);
+    keep_finite(g, c);
     if (u_wants_mean) {
         put_look(slot, hit, seen.surface, c);
         return;

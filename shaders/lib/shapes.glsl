@@ -88,6 +88,12 @@ float velvet(float roughness, float NoV, float NoL, float VoL)
 }
 
 // Even up to an angle, then fading.
+float one_minus_cos(float angle)
+{
+    float s = sin(0.5 * angle);
+    return 2.0 * s * s;
+}
+
 float toon_intensity(vec2 at, float angle)
 {
     return angle < at.x ? 1.0 : at.y > 0.0 ? max(1.0 - (angle - at.x) / at.y, 0.0) : 0.0;
@@ -96,15 +102,15 @@ float toon_intensity(vec2 at, float angle)
 float toon(vec2 at, float c, float NoL)
 {
     float widest = min(at.x + at.y, PI / 2.0), angle = safe_acos(c);
-    return angle < widest ? toon_intensity(at, angle) / (2.0 * (1.0 - cos(widest)) * max(NoL, 1e-4)) : 0.0;
+    return angle < widest ? toon_intensity(at, angle) / (2.0 * one_minus_cos(widest) * max(NoL, 1e-4)) : 0.0;
 }
 
 // Share of all light from above that comes back.
 float toon_share(vec2 at)
 {
     float widest = min(at.x + at.y, PI / 2.0), fade = at.x - widest < 0.0 ? widest - at.x : 0.0;
-    float even = 1.0 - cos(at.x), faded = fade > 0.0 ? cos(at.x) - cos(widest) * (1.0 - fade / at.y) - (sin(widest) - sin(at.x)) / at.y : 0.0;
-    return (even + faded) / (1.0 - cos(widest));
+    float even = one_minus_cos(at.x), faded = fade > 0.0 ? cos(at.x) - cos(widest) * (1.0 - fade / at.y) - (sin(widest) - sin(at.x)) / at.y : 0.0;
+    return clamp((even + faded) / one_minus_cos(widest), 0.0, 1.0);
 }
 
 vec3 shape_factor(Shape shape, vec3 n, vec3 wo, vec3 wi)

@@ -122,6 +122,21 @@ void add_behind(inout Closures c, vec3 albedo, vec3 normal)
         c.behind_normal = normal;
 }
 
+// Nothing, where anything has overflowed or is no number: Cycles drops such samples.
+void keep_finite(Geo g, inout Closures c)
+{
+    Bsdf b = c.lobes;
+    vec3 sum = abs(c.ground) + abs(c.behind) + abs(c.emission) + abs(c.transparency) + abs(c.mean) + abs(c.shape.color)
+             + abs(b.metal_f0) + abs(b.metal_f90) + abs(b.metal_dip) + abs(b.coat_f0) + abs(b.coat_f90) + abs(b.glass_f0)
+             + abs(b.glass_f90) + abs(b.glass_through) + abs(b.glossy) + abs(b.transmission)
+             + abs(c.ground_normal) + abs(c.lobes_normal) + abs(c.behind_normal);
+    vec2 rest = abs(b.alpha) + abs(c.shape.at);
+    float all_of_it = dot(sum, vec3(1.0)) + rest.x + rest.y + abs(b.turn) + abs(b.coat_eta) + abs(b.glass_eta) + c.ground_mass
+                    + c.lobes_mass + abs(c.holdout) + c.chance;
+    if ((floatBitsToUint(all_of_it) & 0x7f800000u) == 0x7f800000u)
+        c = no_closures(g, 0.5, c.wants_mean);
+}
+
 void closure_emission(inout Closures c, float weight, vec3 color, float strength)
 {
     c.emission += weight * strength * color;

@@ -21,7 +21,7 @@ void pass_through(inout Rest rest, vec3 seen, vec3 mean)
 vec3 through_coat(vec3 tint, float coat, float ior, float NoV)
 {
     float c = sqrt(max(1.0 - (1.0 - NoV * NoV) / (ior * ior), 1e-6));
-    return mix(vec3(1.0), pow(max(tint, 0.0), vec3(1.0 / c)), coat);
+    return mix(vec3(1.0), min(pow(max(tint, 0.0), vec3(1.0 / c)), 1e6), coat);
 }
 
 void add_sheen_layer(inout Closures c, inout Rest rest, Geo g, float sheen, float roughness, vec3 tint, vec3 normal)

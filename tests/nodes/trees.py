@@ -34,7 +34,7 @@ SIZE = 16  # pixels of a card's side
 Maker = Callable[[build.Nodes], Any]
 
 # Of the cards, as `cycles.look_down` sees them from 2 m above its near plane's 2 cm
-_POINT = """
+POINT = """
 Geo point_of(vec2 uv)
 {
     Geo g;
@@ -57,7 +57,7 @@ def make_cards(makers: Sequence[Maker]) -> None:
     for i, maker in enumerate(makers):
         nodes = build.material(f"Card {i:04}")
         shown = maker(nodes)
-        nodes.show(nodes.new("Emission", Color=shown))
+        nodes.show(shown if shown.bl_idname == "NodeSocketShader" else nodes.new("Emission", Color=shown))
         if hasattr(nodes.owner, "cycles"):
             nodes.owner.cycles.emission_sampling = "NONE"
         build.plane(nodes.owner, name=f"Card {i:04}", at=(2 * (i % side), 2 * (i // side), 0))
@@ -114,7 +114,7 @@ def compiled(trees: Sequence[Graph]) -> tuple[str, np.ndarray, list[str]]:
             writer.value(f"vec3 tree_{i}(Geo g)", shown.arguments[0])
     # One after another: software renderers give up on a switch of more than 80 cases, and on ifs in as many ifs
     cases = "\n".join(f"    if (i == {i}u)\n        made = tree_{i}(g);" for i in range(len(trees)))
-    text = (f"{writer.text()}{_POINT}\nvec3 tree(uint i, Geo g)\n{{\n    vec3 made = vec3(0.0);\n{cases}\n"
+    text = (f"{writer.text()}{POINT}\nvec3 tree(uint i, Geo g)\n{{\n    vec3 made = vec3(0.0);\n{cases}\n"
             "    return made;\n}")
     words = np.concatenate([np.zeros(1, "u4"), *(datum.words(lambda what, name: 0) for datum in writer.data)])
     return text, words[1:], list(notes)
