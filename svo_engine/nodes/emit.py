@@ -52,16 +52,14 @@ class Writer:
         text = "\n".join(f"    {line}" for line in [*begin, *lines, *end(code)])
         self._functions.append(f"{head}\n{{\n{text}\n}}\n")
 
-    def closures(self, found: Sequence[Weighted], normal: Expr | None = None, name: str = "surface",
-                 is_at_rest: bool = False) -> None:
-        """Add a function which fills in the closures of a point.
+    def displaced_normal(self, normal: Expr, at_rest: bool) -> None:
+        """Add what takes the place of the point's normal. at_rest: computed where that lay before vertices moved."""
+        self.value("vec3 displaced_normal(Geo g)", normal, ["g = at_rest(g);"] if at_rest else [])
 
-        normal  what takes the place of its own; is_at_rest: computed where the mesh was before it was moved
-        """
+    def closures(self, found: Sequence[Weighted], is_bumped: bool = False, name: str = "surface") -> None:
+        """Add a function which fills in the closures of a point. is_bumped: whether there is a displaced normal."""
         begin = []
-        if normal is not None:
-            if "displaced_normal" not in "".join(self._functions):
-                self.value("vec3 displaced_normal(Geo g)", normal, ["g = at_rest(g);"] if is_at_rest else [])
+        if is_bumped:
             begin = ["g.normal = displaced_normal(g);", "c = no_closures(g, c.chance, c.wants_mean);"]
         roots = [expr for w in found for expr in (w.weight, *w.leaf.arguments)]
 

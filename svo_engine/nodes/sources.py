@@ -13,7 +13,7 @@ from ..scene.graph import Graph
 from ..scene.types import Color, Light, Scene, World
 from .build import Built
 from .closures import Leaf, Weighted, leaves
-from .compile import One, Text
+from .compile import One
 from .emit import Writer
 from .expr import Constant, Expr, Literal
 from .rays import CAMERA, LAMP, LIGHT, Falloff, asks_for_rays, of_lamp, seen_by, without_falloff
@@ -72,7 +72,7 @@ def told(scene: Scene) -> list[str]:
 def wants_view(graph: Graph) -> bool:
     """Whether a world looks another way when the camera is turned."""
     trees = world_trees(graph)
-    return any(f"{name}(" in shine.tree.surface.text for name in OF_VIEW for shine in (trees.light, trees.seen))
+    return any(f"{name}(" in shine.tree.text for name in OF_VIEW for shine in (trees.light, trees.seen))
 
 
 def world_trees(graph: Graph) -> WorldTrees:
@@ -131,7 +131,7 @@ def _shine(graph: Graph) -> Shine:
              if w.leaf.name == "closure_emission" and not _is_nothing(w.weight)]
     writer = Writer()
     writer.closures(found)
-    tree = One(Text(writer.text(), tuple(writer.data), writer.n_values), None, traits_of(found), tuple(notes))
+    tree = One(writer.text(), tuple(writer.data), writer.n_values, traits_of(found), tuple(notes))
     return Shine(_constant(found), tree, tuple(notes))
 
 
@@ -179,5 +179,5 @@ def values_of(tree: One, find_image: Callable[[Any], int]) -> tuple[np.ndarray, 
         images.add(number := find_image(name))
         return number
 
-    words: Mapping[int, np.ndarray] = {datum.first: datum.words(index) for datum in tree.surface.data}
+    words: Mapping[int, np.ndarray] = {datum.first: datum.words(index) for datum in tree.data}
     return np.concatenate([np.zeros(0, "u4"), *words.values()]), frozenset(images)

@@ -148,7 +148,7 @@ def points_of_world(directions: np.ndarray) -> np.ndarray:
 def _light(device: Device, tree: One, images: tuple[Image, ...], n: int, points: np.ndarray, size: tuple[int, int],
            rays: int, place: np.ndarray | None = None, view: View | None = None) -> np.ndarray:
     values, used = values_of(tree, _finder(images))
-    pass_ = source_pass(tree.surface.text)
+    pass_ = source_pass(tree.text)
     device.prepare([(pass_, {})])
     with device.scope() as scope:
         pictures = upload_pictures(device, (), images, tuple(used))

@@ -17,12 +17,15 @@ Domain = Literal["POINT", "FACE", "CORNER", "INSTANCE"]
 
 T = TypeVar("T")
 
+# The name of the attribute that positions are before materials move them, where they do
+REST = "\0rest"
+
 # Bits of Instances.visibility: the rays that see it, as in Cycles
 VISIBLE = {"camera": 1, "diffuse": 2, "glossy": 4, "transmission": 8, "volume": 16, "shadow": 32}
 ALL_VISIBLE = 63
 IS_HOLDOUT, IS_SHADOW_CATCHER = 64, 128
 
-_NOT_SET = np.zeros(0, "u1")
+_NOT_SET, _NO_FLAGS = np.zeros(0, "u1"), np.zeros(0, "?")
 
 # Arrays that each instance has a row of: (dtype, the rest of the shape, what it is if nobody says)
 _ROWS: dict[str, tuple[str, tuple[int, ...], Any]] = {
@@ -36,6 +39,10 @@ _NOT_SHADED = "ids", "visibility", "light_set", "shadow_set"
 
 def _not_set() -> np.ndarray:
     return _NOT_SET
+
+
+def _no_flags() -> np.ndarray:
+    return _NO_FLAGS
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +80,7 @@ class Mesh:
     generated_low, generated_size
                     metres, object space: generated coordinates are (position - low) / size
     motion          positions at other times, each as `positions`
+    flat            (n_triangles,) bool, those of flat faces; empty where their normals alone say that
     """
 
     name: str
@@ -86,6 +94,7 @@ class Mesh:
     generated_low: tuple[float, float, float] = (0.0, 0.0, 0.0)
     generated_size: tuple[float, float, float] = (1.0, 1.0, 1.0)
     motion: tuple[np.ndarray, ...] = ()
+    flat: np.ndarray = field(default_factory=_no_flags)
 
     def __post_init__(self) -> None:
         owner = f"Mesh '{self.name}'"
@@ -98,6 +107,8 @@ class Mesh:
             raise SceneError(f"{owner}: a triangle names vertex {self.triangles.max()} of {len(self.positions)}")
         for positions in self.motion:
             check(owner, "motion", positions, "f4", self.positions.shape)
+        if len(self.flat):
+            check(owner, "flat", self.flat, "?", (n,))
         _check_attributes(owner, self.attributes, {"POINT": len(self.positions), "FACE": n, "CORNER": 3 * n})
         for name in filter(None, (self.uv_map, self.color)):
             if self.attribute(name) is None:
@@ -129,7 +140,8 @@ class Mesh:
         """As `Scene.plain`."""
         uv_map = self.attribute(self.uv_map)
         return with_fields(self, name="", attributes=() if uv_map is None else (uv_map,), color="", motion=(),
-                           generated_low=(0.0, 0.0, 0.0), generated_size=(1.0, 1.0, 1.0))
+                           generated_low=(0.0, 0.0, 0.0), generated_size=(1.0, 1.0, 1.0),
+                           flat=_NO_FLAGS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,6 +216,20 @@ class Instances:
     def plain(self) -> Instances:
         """As `Scene.plain`."""
         return with_fields(self, names=("",) * len(self), attributes=(), motion=(), **dict.fromkeys(_ROWS, _NOT_SET))
+
+
+def chosen(instances: Instances, rows: np.ndarray) -> Instances:
+    """The instances of these numbers, without motion."""
+    first = instances.first_slot.astype("i8")
+    n_slots = np.diff(first)[rows]
+    ends = np.cumsum(n_slots)
+    slots = np.arange(n_slots.sum()) + np.repeat(first[rows] - ends + n_slots, n_slots)
+    values = {name: row[rows] for name in _ROWS if len(row := getattr(instances, name))}
+    return with_fields(
+        instances, names=tuple(instances.names[i] for i in rows), mesh=instances.mesh[rows],
+        world_from_object=instances.world_from_object[rows], first_slot=np.concatenate([[0], ends]).astype("u4"),
+        slot_materials=instances.slot_materials[slots], motion=(),
+        attributes=tuple(with_fields(a, values=a.values[rows]) for a in instances.attributes), **values)
 
 
 def with_fields(record: T, **values: Any) -> T:

@@ -32,15 +32,15 @@ class Raw(NamedTuple):
 
 def make_mesh(name: str, positions: np.ndarray, triangles: np.ndarray, corner_normals: np.ndarray | None = None,
               corner_uvs: np.ndarray | None = None, material_slots: np.ndarray | None = None,
-              raw: Sequence[Raw] = (), **more: Any) -> tuple[Mesh, tuple[str, ...]]:
+              flat: np.ndarray | None = None, raw: Sequence[Raw] = (), **more: Any) -> tuple[Mesh, tuple[str, ...]]:
     """A Mesh and the warnings about what was dropped from it.
 
     positions  (n_vertices, 3), triangles (n_triangles, 3); optional arrays as in `Mesh`, default: the triangle's own
-    normal, slot 0. raw: attributes before anything is dropped; corner_uvs is short for an active UV map among them;
-    `more` are fields of Mesh. Triangles with a corner that is not finite are dropped; so are, without a word,
-    those without area, for they cover nothing and Blender's own texts and spheres have them, and vertices that no
-    triangle is left to use. Normals and values that are not finite are replaced by the triangle's normal and by
-    zero. SceneError if a triangle names a vertex that is not there.
+    normal, slot 0, flat where normals say so. raw: attributes before anything is dropped; corner_uvs is short for an
+    active UV map among them; `more` are fields of Mesh. Triangles with a corner that is not finite are dropped; so are,
+    without a word, those without area, for they cover nothing and Blender's own texts and spheres have them, and
+    vertices that no triangle is left to use. Normals and values that are not finite are replaced by the triangle's
+    normal and by zero. SceneError if a triangle names a vertex that is not there.
     """
     positions = np.ascontiguousarray(positions, "f4").reshape(-1, 3)
     triangles = np.ascontiguousarray(triangles, "u4").reshape(-1, 3)
@@ -56,6 +56,8 @@ def make_mesh(name: str, positions: np.ndarray, triangles: np.ndarray, corner_no
                       for a, dtype, shape in ((corner_normals, "f4", (3, 3)), (material_slots, None, ())))
     normals = _unit_normals(normals, _kept(cross, keep))
     slots = np.zeros(len(normals), "u4") if slots is None else slots.astype("u4")
+    if flat is not None:
+        more["flat"] = _kept(np.asarray(flat, bool), keep)
     used = np.zeros(len(positions), bool)
     triangles = _kept(triangles, keep)
     used[triangles] = True

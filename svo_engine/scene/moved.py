@@ -1,64 +1,105 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes with other positions, and the normals that go with them."""
+"""Meshes that materials move: their normals before and after, as Cycles has them."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from .geometry import Attribute, Mesh, with_fields
+from .geometry import REST, Attribute, Mesh
 
-# Positions before a mesh was moved, which its generated coordinates are of
-REST = "\0rest"
-
-_FLAT = 1e-4  # how far corners' normals may be from their triangle's for it to count as flat
+_SAME = 1e-4  # normals as near as this are one
 
 
 def vertex_normals(mesh: Mesh) -> np.ndarray:
-    """(n_vertices, 3) f4: means of the normals around each vertex, by the triangles' angles there."""
-    weighted = face_normals(mesh)[:, None] * _angles(mesh)[..., None]
-    return _unit(_sums(mesh.triangles.ravel(), weighted.reshape(-1, 3), len(mesh.positions))).astype("f4")
-
-
-def moved_mesh(mesh: Mesh, moves: np.ndarray, keeps: np.ndarray) -> Mesh:
-    """`mesh` with positions moved by (n_vertices, 3) f4. Corners that had one normal still have one; flat faces stay.
-
-    keeps  (n_triangles,) bool: whose normals do not follow, for they will be bumped; these are all smooth, as in Cycles
+    """(n_vertices, 3) f4, unit: what vertices move along. Those of smooth faces where all of these agree, else means of
+    the faces around a vertex by their angles there, as Blender has it.
     """
-    moved = with_fields(mesh, positions=(mesh.positions + moves).astype("f4"))
-    moved.__dict__.pop("plain", None)
-    moved.__dict__.pop("shaded", None)
-    own, faces = face_normals(mesh)[:, None], face_normals(moved)
-    flat = (np.abs(mesh.corner_normals - own).max((1, 2)) < _FLAT)
-    words = np.ascontiguousarray(mesh.corner_normals.reshape(-1, 3) + np.float32(0)).view("u4").astype("u8")
-    keys = mesh.triangles.ravel().astype("u8")
-    for i in range(3):
-        keys = (keys ^ words[:, i]) * np.uint64(0x9E3779B97F4A7C15)
-        keys ^= keys >> np.uint64(29)
-    groups = np.unique(keys, return_inverse=True)[1].ravel()
-    sums = _sums(groups, np.repeat(faces, 3, axis=0), int(groups.max(initial=-1)) + 1)  # as Cycles, not by angles
-    normals = _unit(sums)[groups].reshape(-1, 3, 3)
-    normals = np.where(keeps[:, None, None], vertex_normals(mesh)[mesh.triangles], normals)
-    normals = np.where(((flat & ~keeps)[:, None, None] | ~normals.any(-1, keepdims=True)), faces[:, None], normals)
+    own, _ = face_normals(mesh.positions, mesh.triangles)
+    weighted = own[:, None] * _angles(mesh.positions[mesh.triangles].astype("f8"))[..., None]
+    made = _unit(_sums(mesh.triangles.ravel(), weighted.reshape(-1, 3), len(mesh.positions)))
+    smooth = ~flat_faces(mesh)
+    if not _is_split(mesh, smooth):
+        made[mesh.triangles[smooth]] = mesh.corner_normals[smooth]
+    return made.astype("f4")
+
+
+def moved_mesh(mesh: Mesh, moves: np.ndarray, bends: np.ndarray, bumps: np.ndarray) -> Mesh:
+    """`mesh` with its vertices moved. Triangles that have no area then are left out.
+
+    Flat faces stay flat, smooth ones get means of the faces around a vertex, not by angles. Where sharp edges split the
+    normals at a vertex, all of them turn as that mean does.
+
+    moves  (n_vertices, 3) f4, metres, object space
+    bends  (n_triangles,) bool: of which materials vertices get normals anew
+    bumps  (n_triangles,) bool: whose normals do not follow, for they will be bumped; these are all smooth, as in Cycles
+    """
+    positions, corners = (mesh.positions + moves).astype("f4"), mesh.triangles
+    flat, (own, has_area) = flat_faces(mesh), face_normals(positions, corners)
+    if _is_split(mesh, ~flat):
+        before, _ = face_normals(mesh.positions, corners)
+        turn = _means(corners, own, len(positions)) - _means(corners, before, len(positions))
+        normals = _unit(mesh.corner_normals + turn[corners])
+    else:
+        means = _means(corners[bends], own[bends], len(positions))[corners]
+        normals = np.where(means.any(-1, keepdims=True), means, mesh.corner_normals)
+    normals = np.where(flat[:, None, None] | ~normals.any(-1, keepdims=True), own[:, None], normals)
+    normals = np.where(bumps[:, None, None], vertex_normals(mesh)[corners], normals).astype("f4")
     attributes = (*mesh.attributes, Attribute(REST, "POINT", mesh.positions))
-    return with_fields(moved, corner_normals=normals.astype("f4"), attributes=attributes)
+    if has_area.all():
+        return replace(mesh, positions=positions, corner_normals=normals, flat=flat, attributes=attributes)
+    return replace(mesh, positions=positions, triangles=corners[has_area], corner_normals=normals[has_area],
+                   material_slots=mesh.material_slots[has_area], flat=flat[has_area],
+                   attributes=tuple(_kept(a, has_area) for a in attributes))
 
 
-def face_normals(mesh: Mesh) -> np.ndarray:
-    """(n_triangles, 3) f8, unit."""
-    a, b, c = (mesh.positions[mesh.triangles[:, i]].astype("f8") for i in range(3))
-    normals = _unit(np.cross(b - a, c - a))
-    normals[~normals.any(1)] = 0, 0, 1  # of what has no area any more
-    return normals
+def flat_faces(mesh: Mesh) -> np.ndarray:
+    """(n_triangles,) bool. Where nobody has said, those whose corners have their triangle's own normal."""
+    if len(mesh.flat):
+        return mesh.flat
+    own, _ = face_normals(mesh.positions, mesh.triangles)
+    return np.abs(mesh.corner_normals - own[:, None]).max((1, 2), initial=0) < _SAME
 
 
-def _angles(mesh: Mesh) -> np.ndarray:
-    corners = mesh.positions[mesh.triangles].astype("f8")
+def face_normals(positions: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(n_triangles, 3) f8, unit, and whether each has an area; along x where it has none."""
+    a, b, c = positions[triangles.T].astype("f8")
+    cross = np.cross(b - a, c - a)
+    has_area = (cross != 0).any(1)
+    normals = _unit(cross)
+    normals[~has_area] = 1, 0, 0
+    return normals, has_area
+
+
+def _is_split(mesh: Mesh, smooth: np.ndarray) -> bool:
+    """Whether two of the smooth triangles have different normals at one vertex."""
+    vertices, normals = mesh.triangles[smooth].ravel(), mesh.corner_normals[smooth].reshape(-1, 3)
+    of_vertex = np.zeros((len(mesh.positions), 3), "f4")
+    of_vertex[vertices] = normals
+    return bool(np.abs(of_vertex[vertices] - normals).max(initial=0) > _SAME)
+
+
+def _means(triangles: np.ndarray, normals: np.ndarray, n: int) -> np.ndarray:
+    """(n, 3) f8: at each vertex the unit mean of the normals (n_triangles, 3) around it; zero without any."""
+    return _unit(_sums(triangles.ravel(), np.repeat(normals, 3, axis=0), n))
+
+
+def _angles(corners: np.ndarray) -> np.ndarray:
+    """(n_triangles, 3) f8, radians, of triangles (n_triangles, 3, 3)."""
     sides = [_unit(corners[:, (i + 1) % 3] - corners[:, i]) for i in range(3)]
     return np.stack([np.arccos(np.clip(-(sides[i] * sides[i - 1]).sum(1), -1, 1)) for i in range(3)], 1)
 
 
+def _kept(attribute: Attribute, keep: np.ndarray) -> Attribute:
+    """Without the rows of triangles that are not kept."""
+    if attribute.domain == "POINT":
+        return attribute
+    return replace(attribute, values=attribute.values[keep if attribute.domain == "FACE" else np.repeat(keep, 3)])
+
+
 def _sums(places: np.ndarray, rows: np.ndarray, n: int) -> np.ndarray:
-    return np.stack([np.bincount(places, rows[:, i], n) for i in range(3)], 1)
+    return np.stack([np.bincount(places, rows[:, i], n) for i in range(3)], 1).astype("f8")  # also of no rows
 
 
 def _unit(v: np.ndarray) -> np.ndarray:

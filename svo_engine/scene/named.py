@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable
 from weakref import WeakKeyDictionary
 
-from .geometry import Attribute, Instances, Mesh
+from .geometry import REST, Attribute, Instances, Mesh, with_fields
 from .islands import islands, pointiness
 from .tangents import tangents
 
@@ -68,6 +68,8 @@ def _island(mesh: Mesh, _name: str) -> Attribute | None:
 
 
 def _pointiness(mesh: Mesh, _name: str) -> Attribute | None:
+    rest = mesh.attribute(REST)
+    mesh = mesh if rest is None else with_fields(mesh, positions=rest.values)
     return Attribute("pointiness", "POINT", pointiness(mesh)[:, None].astype("f4"))
 
 

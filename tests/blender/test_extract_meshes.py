@@ -65,10 +65,12 @@ def test_smooth_and_flat_normals(empty):
     own = np.cross(b - a, c - a)
     own /= np.linalg.norm(own, axis=1, keepdims=True)
     np.testing.assert_allclose(flat.corner_normals, np.repeat(own[:, None], 3, 1), atol=1e-3)
+    assert flat.flat.all() and len(flat.flat) == len(flat.triangles)
     for polygon in data.polygons:
         polygon.use_smooth = True
     data.update()
     smooth = only_mesh()
+    assert not smooth.flat.any()
     # On the unit sphere a vertex is its own normal; the mean of its faces' normals is off by less than a ring's angle
     np.testing.assert_allclose(smooth.corner_normals, smooth.positions[smooth.triangles], atol=0.02)
 

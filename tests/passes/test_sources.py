@@ -88,4 +88,4 @@ def test_object_space_of_a_lamp_is_its_own(device):
 
 def test_parametric_coordinates_of_a_lamp_are_its_uv():
     for node in (COORDINATES, Node("ShaderNodeUVMap")):
-        assert "parametric_of_point" in lamp_tree(graph(node, "UV", "Emission")).shine.tree.surface.text
+        assert "parametric_of_point" in lamp_tree(graph(node, "UV", "Emission")).shine.tree.text

@@ -43,8 +43,8 @@ def _read(mesh: Any, name: str, warn: Callable[[str], object]) -> Mesh | None:
     raw = read_attributes(mesh, corners, (uv_map, color), lambda left_out: warn(f"Mesh '{name}': {left_out}"))
     made, warnings = make_mesh(
         name, positions, vertex_of_corner[corners], normals[corners], material_slots=_slots(mesh, n_triangles),
-        raw=raw, uv_map=uv_map, color=color if any(a.name == color for a in raw) else "", generated_low=low,
-        generated_size=size)
+        flat=_flat(mesh, n_triangles), raw=raw, uv_map=uv_map, color=color if any(a.name == color for a in raw) else "",
+        generated_low=low, generated_size=size)
     for warning in warnings:
         warn(warning)
     return made if len(made.triangles) else None
@@ -61,6 +61,15 @@ def _corners(mesh: Any, n_triangles: int) -> np.ndarray:
     if n_triangles == len(mesh.polygons) and len(mesh.loops) == 3 * n_triangles:
         return np.arange(3 * n_triangles, dtype="i4").reshape(-1, 3)
     return seen(mesh.loop_triangles, "loops", (n_triangles, 3), "i4").copy()  # else Blender asks each by itself
+
+
+def _flat(mesh: Any, n_triangles: int) -> np.ndarray:
+    """(n_triangles,) bool: those of flat faces."""
+    attribute = mesh.attributes.get("sharp_face")
+    if attribute is None or attribute.domain != "FACE" or attribute.data_type != "BOOLEAN":
+        return np.zeros(n_triangles, bool)
+    of_face = array(attribute.data, "value", (len(mesh.polygons),), "?")
+    return of_face[array(mesh.loop_triangle_polygons, "value", (n_triangles,), "i4")]
 
 
 def _slots(mesh: Any, n_triangles: int) -> np.ndarray | None:

@@ -17,7 +17,6 @@ from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...needs import Needs, needs_of
 from ...nodes.sources import settled, wants_view
-from ...scene.geometry import with_fields
 from ...scene.types import Scene
 from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
@@ -115,11 +114,14 @@ def trees_of(scene: Scene, make: Make) -> Trees:
 def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Make) -> GpuScene:
     """The scene from parts: `make(name, function, *inputs, n_kept)` gives function(device, *inputs), or a kept one."""
     from ..bake import bake  # which need this package
-    from ..displace import displace
+    from ..displace import displace, moving_of, with_moved
     from ..lights.lamps import make_lamps
     from ..sources import make_sky
 
     scene = scene.plain
+    if found := moving_of(scene, trees):
+        moving, shown = found
+        scene = with_moved(scene, make("displaced", displace, moving).meshes, shown)
     shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
     placing = make("placing", place, shapes, scene.instances)
     pictures = make("pictures", upload_pictures, scene.textures, scene.images, tuple(sorted(trees.compiled.images)))
@@ -127,12 +129,6 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     table = make("albedo", albedo, needs.principled or needs.trees, n_kept=2)
     asked = trees.compiled.attributes if trees.passes else None
     shading = make("shading", upload_shading, placing, scene.meshes, scene.instances, asked)
-    if trees.movers:
-        moved = make("displaced", displace, placing, shading, surfaces, trees, scene.meshes)
-        scene = with_fields(scene, meshes=moved.meshes)
-        shapes = make("displaced shapes", upload_shapes, scene.meshes, needs.textures)
-        placing = make("displaced placing", place, shapes, scene.instances)
-        shading = make("displaced shading", upload_shading, placing, scene.meshes, scene.instances, asked)
     looks = make("looks", bake, placing, surfaces, trees, table, shading, scene.camera if trees.want_view else None)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     tree = None if scene.world.is_exact else scene.world.graph

@@ -13,7 +13,7 @@ from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...gpu.words import WIDTH
 from ...scene import layouts
-from ...scene.moved import REST
+from ...scene.geometry import REST
 from ...scene.named import named_attribute
 from ...scene.types import Attribute, Instances, Mesh, View
 from .placing import Placing

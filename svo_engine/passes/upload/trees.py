@@ -8,12 +8,15 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from ...gpu.buffer import Buffer
 from ...gpu.device import Device
 from ...gpu.passes import Pass
 from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...nodes.compile import STYLED, Compiled, compile_materials
+from ...nodes.moves import Moves, compile_moves
 from ...scene.layouts import CONSTANTS
 from ...scene.types import Image, Material, Scene
 
@@ -28,25 +31,31 @@ PLACE = "nodes/tree.glsl"  # the file of the template that a structure's text st
 @dataclass(frozen=True, eq=False)
 class Trees:
     """passes: the evaluating program of each compiled structure, by its number; styles: of those that go on with
-    light as a colour the program that does; movers: that of each displacement; values: the buffer of bind/geo.glsl.
+    light as a colour the program that does; values: the buffer of bind/geo.glsl; moves: what moves vertices.
     """
 
     scope: GpuScope
     compiled: Compiled
     passes: Mapping[int, Pass]
     styles: Mapping[int, Pass]
-    movers: tuple[Pass, ...]
     values: Buffer
+    moves: Moves
 
     @property
     def variants(self) -> tuple[tuple[Pass, Mapping[str, bool]], ...]:
         """What a frame must have compiled."""
-        return tuple((pass_, {}) for pass_ in (*self.passes.values(), *self.styles.values(), *self.movers))
+        movers = map(mover_pass, self.moves.structures)
+        return tuple((pass_, {}) for pass_ in (*self.passes.values(), *self.styles.values(), *movers))
 
     @property
     def want_view(self) -> bool:
         """Whether any asks where the camera is."""
         return any("u_view_from_world" in pass_.wanted for pass_ in self.passes.values())
+
+    @property
+    def moves_want_view(self) -> bool:
+        """Whether it matters for what moves vertices."""
+        return any("u_view_from_world" in mover_pass(text).wanted for text in self.moves.structures)
 
     def told(self) -> list[str]:
         """A sentence for each thing in a tree that is not as in Blender."""
@@ -64,8 +73,8 @@ def upload_trees(device: Device, materials: tuple[Material, ...], images: tuple[
     compiled = compile_materials(materials, find_image)
     styles = {i: tree_pass(text, STYLE) for i, text in enumerate(compiled.structures) if f" {STYLED}(" in text}
     passes = {i: tree_pass(text) for i, text in enumerate(compiled.structures)}
-    movers = tuple(map(mover_pass, compiled.movers))
-    return Trees(scope, compiled, passes, styles, movers, scope.buffer("values", compiled.values))
+    return Trees(scope, compiled, passes, styles, scope.buffer("values", compiled.values),
+                 compile_moves(materials, find_image))
 
 
 def with_stand_ins(device: Device, scene: Scene) -> Scene:
@@ -74,13 +83,16 @@ def with_stand_ins(device: Device, scene: Scene) -> Scene:
     """
     materials = scene.plain.materials
     compiled = compile_materials(materials, lambda _: 0)
-    passes = [tree_pass(text) for text in compiled.structures]
+    moves = compile_moves(materials, lambda _: 0)
+    passes = [*map(tree_pass, compiled.structures), *map(mover_pass, moves.structures)]
     device.programs.begin((pass_, {}) for pass_ in passes)
-    is_ready = [device.programs.find(pass_, {}) is not None for pass_ in passes]
+    is_ready = [*(device.programs.find(pass_, {}) is not None for pass_ in passes), True]
     if all(is_ready):
         return scene
-    return replace(scene, materials=tuple(m if structure < 0 or is_ready[structure] else replace(m, is_exact=True)
-                                          for m, structure in zip(materials, compiled.structure_of, strict=True)))
+    movers = np.where(moves.structure_of < 0, -1, len(compiled.structures) + moves.structure_of)
+    return replace(scene, materials=tuple(
+        m if is_ready[structure] and is_ready[mover] else replace(m, is_exact=True)
+        for m, structure, mover in zip(materials, compiled.structure_of, movers, strict=True)))
 
 
 def evaluate_trees(device: Device, passes: Mapping[int, Pass], n: int, given: Resources) -> None:
@@ -97,7 +109,7 @@ def evaluate_trees(device: Device, passes: Mapping[int, Pass], n: int, given: Re
 
 @lru_cache(1024)
 def mover_pass(text: str) -> Pass:
-    """The program that moves vertices by a displacement."""
+    """The program of what moves vertices, as `tree_pass`."""
     return Pass("displace/vertices.comp.glsl", texts={"nodes/mover.glsl": text})
 
 
