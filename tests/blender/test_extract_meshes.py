@@ -197,3 +197,14 @@ def test_geometry_that_is_not_supported_is_named(empty, kind):
     warning, = extracted().warnings
     assert warning.startswith("Object 'Smoke' is ")
     assert warning.endswith("which is not supported; it is left out")
+
+
+def test_adaptive_subdivision_is_told(empty):
+    made = plane()
+    modifier = made.modifiers.new("Subdivision", "SUBSURF")
+    if hasattr(modifier, "use_adaptive_subdivision"):
+        modifier.use_adaptive_subdivision = True
+    else:
+        made.cycles.use_adaptive_subdivision = True
+    sentence, = extracted().warnings
+    assert sentence == "Object 'Plane': adaptive subdivision is not supported; the modifier's own levels are used"

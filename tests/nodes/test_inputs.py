@@ -115,3 +115,29 @@ def test_inputs(session, shape):
         worst = {name: error for name, error in worst.items() if name not in NOT_ON_CARDS}
     bad = {name: error for name, error in worst.items() if not error <= ERRORS[shape]}
     assert not bad, bad
+
+
+OF_TRIANGLES = {"pointiness": output("NewGeometry", "Pointiness"),
+                "wires": lambda nodes: nodes.new("Wireframe", Size=0.05),
+                "thin wires": output("Wireframe", "Fac", use_pixel_size=True)}
+
+
+def test_what_depends_on_triangles(session):
+    """On a dented sphere of triangles. A border between wires and faces is the pixel's in which it lies."""
+    cards.make_cards(list(OF_TRIANGLES.values()))
+    for i in range(len(OF_TRIANGLES)):
+        owner = bpy.data.objects[f"Card {i}"]
+        material = owner.active_material
+        bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
+        made = bpy.context.object
+        owner.data = made.data
+        bpy.data.objects.remove(made)
+        owner.data.materials.append(material)
+        owner.data.polygons.foreach_set("use_smooth", [True] * len(owner.data.polygons))
+        for vertex in owner.data.vertices:
+            vertex.co *= 0.8 + 0.2 * np.sin(9 * vertex.index)
+    ours, theirs = cards.cards_by_us(session, list(OF_TRIANGLES.values())), cards.cards_by_cycles(
+        list(OF_TRIANGLES.values()))
+    for name, a, b in zip(OF_TRIANGLES, ours, theirs, strict=True):
+        error = np.abs(a - b).max(-1)
+        assert np.quantile(error, 0.95) < 5e-3, (name, error.max(), float(np.quantile(error, 0.9)))

@@ -130,6 +130,9 @@ class Placing:
                 self._uv_maps.append(layer.name if layer else "")
             if any(p.settings.type == "HAIR" and p.settings.render_type == "PATH" for p in owner.particle_systems):
                 self._warn(f"Object '{owner.name}' has hair strands, which are not supported; they are left out")
+            if _is_adaptive(owner):
+                self._warn(f"Object '{owner.name}': adaptive subdivision is not supported; the modifier's own levels "
+                           "are used")
         return self._mesh_index[pointer]
 
     def _slot_materials(self, owner: Any) -> list[Any]:
@@ -147,3 +150,12 @@ class Placing:
         others = self._materials.uv_maps[material] - {self._uv_maps[mesh], ""}
         if others:
             self._materials.differ(material)
+
+
+def _is_adaptive(owner: Any) -> bool:
+    """Whether Cycles would dice the object's surface by the size of pixels: Blender 5 asks its modifier, 4 the object."""
+    last = owner.modifiers[-1] if owner.modifiers else None
+    if last is None or last.type != "SUBSURF":
+        return False
+    of_object = getattr(getattr(owner, "cycles", None), "use_adaptive_subdivision", False)
+    return bool(getattr(last, "use_adaptive_subdivision", of_object))
