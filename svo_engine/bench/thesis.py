@@ -81,8 +81,8 @@ def occupy(device: Device, gpu_scene: Any, n: int) -> int:
 
 def voxelize_whole(device: Device, gpu_scene: Any, n: int) -> int:
     """Voxels with the means of their surfaces; their number."""
-    placing, looks, emission, table = gpu_scene.matter
-    made = voxelize(device, placing, looks, emission, table, n)
+    placing, surfaces, looks, emission, table = gpu_scene.matter
+    made = voxelize(device, placing, surfaces, looks, emission, table, n)
     made.scope.close()
     return made.n_voxels
 

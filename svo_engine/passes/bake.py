@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces, placed -> Looks: what surfaces look like to all programs that do not evaluate trees of nodes.
+"""Trees, placed -> Looks: what trees of nodes look like to all programs that do not evaluate them.
 
 A triangle whose material is a tree is cut into cells. The tree is evaluated in the middle of each, as diffuse light
 sees it: surfels, points drawn on emitters, and rays that alpha may let through read its cell. What the eye and its
@@ -44,7 +44,10 @@ PLANES = CONSTANTS["HIT_PLANES"] + CONSTANTS["POINT_PLANES"]
 
 def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, table: Albedo, shading: Shading,
          camera: Camera | None) -> Looks:
-    """Evaluate the trees of all triangles, as finely as MOST allows. GpuError if the cells do not fit the device."""
+    """Evaluate the trees of all triangles, as finely as MOST allows. GpuError if the cells do not fit the device.
+
+    surfaces  what is right for materials that are trees, and says of all others that they are none
+    """
     scope = device.scope()
     traits = trees.compiled.traits
     emits = np.array([bool(t and t.emits) for t in traits], bool)
@@ -69,7 +72,7 @@ def bake(device: Device, placing: Placing, surfaces: Surfaces, trees: Trees, tab
     else:
         texels = scope.texels("baked", TEXEL)
     device.profiler.counts["baked bytes"] = scope.n_bytes
-    return Looks(scope, surfaces, {"u_baked": texels, "u_n_rows": n_rows}, brightest, means, emits)
+    return Looks(scope, {"u_baked": texels, "u_n_rows": n_rows}, brightest, means, emits)
 
 
 def _cells(device: Device, scratch: GpuScope, placing: Placing, common: Resources) -> tuple[Buffer, int, float]:

@@ -20,6 +20,7 @@ from .albedo import Albedo
 from .upload.emission import Emission
 from .upload.looks import Looks
 from .upload.placing import Placing
+from .upload.surfaces import Surfaces
 from .voxelize import Grid, cut_strips, make_grid, number_bits, work_of
 
 MARK_NODES = Pass("octree/mark_nodes.comp.glsl")
@@ -107,8 +108,8 @@ def build_octree(device: Device, placing: Placing, n: int) -> Octree:
     return Octree(scope, grid, words, surfels, strips, n_strips, n_nodes, n_surfels)
 
 
-def color_surfels(device: Device, placing: Placing, looks: Looks, emission: Emission, table: Albedo,
-                  octree: Octree) -> Colors:
+def color_surfels(device: Device, placing: Placing, surfaces: Surfaces, looks: Looks, emission: Emission,
+                  table: Albedo, octree: Octree) -> Colors:
     """The means of what surfaces look like. GpuError if they do not fit the device."""
     scope, n = device.scope(), octree.n_surfels
     texels = scope.texels("colours of surfels", _COLORS * max(n, 1))
@@ -117,8 +118,8 @@ def color_surfels(device: Device, placing: Placing, looks: Looks, emission: Emis
         sums: Resources = {"Sums": scratch.buffer("colour sums", 4 * n_sums * n, clear=True), "u_n_sums": n_sums,
                            "u_emission_unit": emission.highest}
         if n:
-            device.dispatch(PAINT, octree.n_strips, **work_of(placing, octree.grid, octree.strips), **looks.materials,
-                            **sums, u_albedo=table.table, Octree=octree.words,
+            device.dispatch(PAINT, octree.n_strips, **work_of(placing, octree.grid, octree.strips), **sums,
+                            **surfaces.materials, **looks.baked, u_albedo=table.table, Octree=octree.words,
                             **tree_sizes(octree.grid.n, octree.n_nodes))
             device.dispatch(BLEND, n, Surfels=octree.surfels, Colors=texels.buffer, **sums)
     return Colors(scope, texels)

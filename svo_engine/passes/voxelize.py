@@ -21,6 +21,7 @@ from .albedo import Albedo
 from .upload.emission import Emission
 from .upload.looks import Looks
 from .upload.placing import Placing
+from .upload.surfaces import Surfaces
 
 COUNT = Pass("voxelize/count.comp.glsl")
 MARK = Pass("voxelize/mark.comp.glsl")
@@ -67,8 +68,8 @@ def make_grid(extent: float, n: int) -> Grid:
     return Grid(n, (low, low, low), voxel_size)
 
 
-def voxelize(device: Device, placing: Placing, looks: Looks, emission: Emission, table: Albedo,
-             n: int) -> Voxels:
+def voxelize(device: Device, placing: Placing, surfaces: Surfaces, looks: Looks, emission: Emission,
+             table: Albedo, n: int) -> Voxels:
     """Voxelize at n voxels a side, n a multiple of 4. GpuError if the voxels do not fit the device."""
     grid, scope = make_grid(placing.extent, n), device.scope()
     if not placing.n_work:
@@ -82,7 +83,7 @@ def voxelize(device: Device, placing: Placing, looks: Looks, emission: Emission,
         n_sums = SUMS + 3 * (emission.highest > 0)
         sums: Resources = {"Sums": scratch.buffer("voxel sums", 4 * n_sums * n_voxels, clear=True),
                            "u_n_sums": n_sums, "u_emission_unit": emission.highest}
-        device.dispatch(ACCUMULATE, n_strips, **work, **looks.materials, **sums, Occupancy=occupancy,
+        device.dispatch(ACCUMULATE, n_strips, **work, **surfaces.materials, **looks.baked, **sums, Occupancy=occupancy,
                         VoxelFirst=firsts, u_albedo=table.table)
         voxels = scope.buffer("voxels", layouts.dtype(layouts.VOXEL).itemsize * n_voxels)
         device.dispatch(AVERAGE, n_voxels, Voxels=voxels, **sums)

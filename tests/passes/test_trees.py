@@ -68,6 +68,23 @@ def test_emitting_trees_light_others(session):
     assert np.abs(pictures[0] - pictures[1]).max() < 1e-3
 
 
+def test_an_edit_of_another_material_bakes_no_tree(session):
+    panel = scenes.quad("Panel", (-0.5, -0.5, 1), (1, 0, 0), (0, 1, 0))
+    tree = Material("Tree", (0, 0, 0), specular_level=0, graph=emission((5, 3, 1)), is_exact=False)
+
+    def passes(floor, lamp):
+        """Those of baking and of the light cache that a frame runs."""
+        things = scenes.Thing(scenes.floor(), floor), scenes.Thing(panel, lamp)
+        counts = film_of(session, scenes.scene(*things, camera=CAMERA), **{**RAYS, "samples": 1}).stats["counts"]
+        return {name for name in counts if name.startswith(("bake/", "cache/")) and " " not in name}
+
+    session.forget()
+    assert "bake/hits" in passes(scenes.WHITE, tree)
+    assert passes(scenes.RED, tree) == {"cache/start", "cache/bounce"}
+    edited = passes(scenes.RED, replace(tree, graph=emission((5, 3, 2))))
+    assert "bake/hits" in edited and "cache/found" in edited and "cache/link" not in edited
+
+
 def test_what_a_tree_cannot_say_is_told_by_material_and_node(session):
     graph = Graph((Node("ShaderNodeOfNobody", name="Strange"),), Link(0, "BSDF"))
     (told,) = [s for s in film_of(session, glowing(graph), **OPEN).stats["limits"] if "Strange" in s]

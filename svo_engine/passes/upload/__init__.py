@@ -17,7 +17,7 @@ from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...needs import Needs, needs_of
 from ...nodes.sources import settled, wants_view
-from ...scene.types import Scene
+from ...scene.types import Material, Scene
 from ...settings import RenderSettings
 from ..albedo import Albedo, albedo
 from .emission import Emission, emissions_of, upload_emission
@@ -35,6 +35,8 @@ from .trees import Trees, upload_trees
 __all__ = ["Draw", "GpuScene", "assemble", "light_rows", "linear_pixels", "pack_units", "upload", "world_uniforms"]
 
 Make = Callable[..., Any]
+
+_NO_TREE = Material("")
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +59,9 @@ class GpuScene:
     table: Albedo
 
     @property
-    def matter(self) -> tuple[Placing, Looks, Emission, Albedo]:
+    def matter(self) -> tuple[Placing, Surfaces, Looks, Emission, Albedo]:
         """All that a voxel can hold: where surfaces are and what they look like."""
-        return self.placing, self.looks, self.emission, self.table
+        return self.placing, self.surfaces, self.looks, self.emission, self.table
 
     @property
     def geometry(self) -> Resources:
@@ -108,7 +110,12 @@ def upload(device: Device, scene: Scene) -> GpuScene:
 
 def trees_of(scene: Scene, make: Make) -> Trees:
     """The compiled node trees of a scene; `make` as for `assemble`."""
-    return make("shaders", upload_trees, scene.plain.materials, scene.images)
+    return make("shaders", upload_trees, _trees_alone(scene.plain.materials), scene.images)
+
+
+def _trees_alone(materials: tuple[Material, ...]) -> tuple[Material, ...]:
+    """The same but for materials that are no trees, of which nothing is left: so they can be edited."""
+    return tuple(_NO_TREE if material.is_exact else material for material in materials)
 
 
 def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Make) -> GpuScene:
@@ -129,7 +136,8 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
     table = make("albedo", albedo, needs.principled or needs.trees, n_kept=2)
     asked = trees.compiled.attributes if trees.passes else None
     shading = make("shading", upload_shading, placing, scene.meshes, scene.instances, asked)
-    looks = make("looks", bake, placing, surfaces, trees, table, shading, scene.camera if trees.want_view else None)
+    of_trees = make("surfaces of trees", upload_surfaces, _trees_alone(scene.materials), pictures, trees)
+    looks = make("looks", bake, placing, of_trees, trees, table, shading, scene.camera if trees.want_view else None)
     world = scene.images[scene.world.image] if scene.world.image >= 0 else None
     tree = None if scene.world.is_exact else scene.world.graph
     images = () if all(light.is_exact for light in scene.lights) else scene.images
