@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Purpose:    what trees gave for the cells, packed.
-// In:         Wave: points, with mean albedos, emission and, as their chance, opacity
+// In:         Wave: points, with mean albedos, emission, as their chance opacity, as t what goes through
 // Out:        Baked: cells; Brightest: the highest radiance (bits of a positive float)
 // Invocation: one cell
 
@@ -20,7 +20,7 @@ void main()
     if (slot >= u_end)
         return;
     Point p = get_point(u_set, slot);
-    baked[u_n_rows + u_start + slot] = packed_cell(Cell(p.diffuse, p.chance, p.emission));
+    baked[u_n_rows + u_start + slot] = packed_cell(Cell(p.diffuse, p.chance, p.emission, p.t));
     float most = max(p.emission.r, max(p.emission.g, p.emission.b));
     if (most > 0.0 && !isinf(most))
         atomicMax(brightest[0], floatBitsToUint(most));

@@ -13,6 +13,7 @@ struct Cell {
     vec3 albedo;
     float opacity;
     vec3 emission;  // radiance
+    float through;  // share of the albedo that sends light on to the other side
 };
 
 // The number of a cell in its triangle. Rows go along the second barycentric, cells of a row point up and down in turns.
@@ -47,7 +48,7 @@ uint baked_at(uint instance, uint triangle, vec2 bary)
     return row.y == 0u ? NOT_BAKED : u_n_rows + row.x + cell_of(bary, row.y);
 }
 
-// Albedos by their roots in 11, 11 and 10 bits, radiance with one exponent for all of it.
+// Albedos by their roots in 11, 11 and 10 bits, radiance with one exponent of 10 bits for all of it, shares in 6.
 uvec4 packed_cell(Cell c)
 {
     uvec3 root = uvec3(round(sqrt(clamp(c.albedo, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0)));
@@ -56,12 +57,12 @@ uvec4 packed_cell(Cell c)
     frexp(most, exponent);
     uvec3 rgb = most > 0.0 ? uvec3(round(clamp(ldexp(max(c.emission, 0.0), ivec3(-exponent)), 0.0, 1.0) * 65535.0)) : uvec3(0u);
     return uvec4(root.r | root.g << 11 | root.b << 22, floatBitsToUint(clamp(c.opacity, 0.0, 1.0)), rgb.r | rgb.g << 16,
-                 rgb.b | uint(exponent + 32768) << 16);
+                 rgb.b | uint(exponent + 512) << 16 | uint(round(63.0 * clamp(c.through, 0.0, 1.0))) << 26);
 }
 
 Cell unpacked_cell(uvec4 t)
 {
     vec3 root = vec3(t.x & 2047u, t.x >> 11u & 2047u, t.x >> 22u) / vec3(2047.0, 2047.0, 1023.0);
     vec3 rgb = vec3(t.z & 65535u, t.z >> 16u, t.w & 65535u) / 65535.0;
-    return Cell(root * root, uintBitsToFloat(t.y), ldexp(rgb, ivec3(int(t.w >> 16u) - 32768)));
+    return Cell(root * root, uintBitsToFloat(t.y), ldexp(rgb, ivec3(int(t.w >> 16u & 1023u) - 512)), float(t.w >> 26u) / 63.0);
 }

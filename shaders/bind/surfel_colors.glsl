@@ -8,6 +8,12 @@ vec3 albedo_of_surfel(uint surfel)
     return uintBitsToFloat(texelFetch(u_surfel_colors, int(2u * surfel)).rgb);
 }
 
+// Albedo, and the share of it that sends light on to the other side.
+vec4 look_of_surfel(uint surfel)
+{
+    return uintBitsToFloat(texelFetch(u_surfel_colors, int(2u * surfel)));
+}
+
 // Radiance.
 vec3 emission_of_surfel(uint surfel)
 {

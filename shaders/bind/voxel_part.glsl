@@ -10,6 +10,7 @@ struct Part {
     vec3 albedo;
     vec3 emission;  // radiance
     float alpha;
+    float through;  // share of the albedo that sends light on to the other side
 };
 
 Part part_of(Strip strip, ivec3 cell)
@@ -20,9 +21,9 @@ Part part_of(Strip strip, ivec3 cell)
     uint at = baked_at(strip.instance, strip.triangle, bary);
     if (at != NOT_BAKED) {
         Cell c = unpacked_cell(texelFetch(u_baked, int(at)));
-        return Part(piece, c.albedo, c.emission, c.opacity);
+        return Part(piece, c.albedo, c.emission, c.opacity, c.through);
     }
     Shading s = shading_at(m, uv_at(strip.triangle, bary));
     vec3 albedo = m.program == PROGRAM_MATTE ? clamp(s.base_color, 0.0, 1.0) : mean_albedo(m, s);
-    return Part(piece, albedo, max(s.emission, 0.0), clamp(s.alpha, 0.0, 1.0));
+    return Part(piece, albedo, max(s.emission, 0.0), clamp(s.alpha, 0.0, 1.0), 0.0);
 }

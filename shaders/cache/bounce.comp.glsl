@@ -28,6 +28,17 @@ bool has_settled()
     return u_sweep > 0u && uintBitsToFloat(changes[u_sweep - 1u]) <= u_tolerance * brightest;
 }
 
+// Radiance of a side: of light that came to it, and of what goes through from the other one. A loop that few enter, not a branch
+// that processors compute for all.
+vec3 sent_from(uint part, uint side)
+{
+    vec4 own = cache[cache_entry(part, side)];
+    int n = own.a > 0.0 ? 1 : 0;
+    for (int i = 0; i < n; i++)
+        own.rgb = mix(own.rgb, cache[cache_entry(part, side ^ 1u)].rgb, own.a);
+    return own.rgb;
+}
+
 void main()
 {
     uint side = u_first + gl_GlobalInvocationID.x, from = RADIANCE + u_sweep % 2u, to = RADIANCE + 1u - u_sweep % 2u;
@@ -37,12 +48,13 @@ void main()
     for (uint k = 0u; k < u_n_rays; k++) {
         uint link = links[k * u_n_sides + side];
         if (link < MISSED)
-            E += PI / float(u_n_rays) * cache[cache_entry(from, link)].rgb;
+            E += PI / float(u_n_rays) * sent_from(from, link);
     }
     E += cache[cache_entry(STILL, side)].rgb;
     cache[cache_entry(INDIRECT, side)] = vec4(E, 0.0);
-    vec3 L = albedo_of_surfel(side / 2u) / PI * (cache[cache_entry(LAMPS, side)].rgb + E);
+    vec4 look = look_of_surfel(side / 2u);
+    vec3 L = look.rgb / PI * (cache[cache_entry(LAMPS, side)].rgb + E);
     vec3 change = abs(L - cache[cache_entry(from, side)].rgb);
-    cache[cache_entry(to, side)] = vec4(L, 0.0);
+    cache[cache_entry(to, side)] = vec4(L, look.a);
     atomicMax(changes[u_sweep], floatBitsToUint(max(change.r, max(change.g, change.b))));
 }

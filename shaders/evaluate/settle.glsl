@@ -15,7 +15,8 @@ float closure_chance(Hit hit)
     return sobol_point(hit.number, hash(hit.seed ^ SETTLE_SEED)).x;
 }
 
-// Fill in what light that was spread sees of a surface: albedo and emission of the part that stops it, and how much that is.
+// Fill in what light that was spread sees of a surface: albedo and emission of the part that stops it; in chance,
+// how much that is, and in t, which share of the albedo is that of light that goes through.
 void put_look(uint slot, Hit hit, Surface s, Closures c)
 {
     float opacity = clamp(1.0 - mean_of(c.transparency), 0.0, 1.0), share = opacity > LEAST ? 1.0 / opacity : 0.0;
@@ -23,6 +24,7 @@ void put_look(uint slot, Hit hit, Surface s, Closures c)
     p.diffuse = clamp(share * c.mean, 0.0, 1.0);
     p.emission = max(share * c.emission, 0.0);
     p.chance = opacity;
+    p.t = mean_of(c.behind) / max(mean_of(c.mean), 1e-6);
     put_point(u_set, slot, p);
 }
 

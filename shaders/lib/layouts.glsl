@@ -188,6 +188,7 @@ struct Surfel {
 
 struct SurfelColors {
     vec3 albedo;
+    float through;
     vec3 emission;
 };
 

@@ -4,6 +4,9 @@
 
 #include "nodes/closures_glossy.glsl"
 #include "nodes/closures_cloth.glsl"
+#include "lib/film.glsl"
+
+const float FILM_CUTOFF = 0.1;  // [nm], as in Cycles
 
 // What is left of light for the layers below, as seen from wo and as light sees it that was spread.
 struct Rest {
@@ -48,7 +51,35 @@ void add_coat_layer(inout Closures c, inout Rest rest, Geo g, float coat, float 
                  below(mean) * through_coat(tint, coat, eta, 0.7));
 }
 
-void closure_principled(inout Closures c, float weight, Geo g, vec3 base_color, float metallic, float roughness, float ior, float alpha, vec3 normal, float diffuse_roughness, float subsurface, float specular_level, vec3 specular_tint, float anisotropy, float rotation, vec3 tangent, float transmission, float coat, float coat_roughness, float coat_ior, vec3 coat_tint, vec3 coat_normal, float sheen, float sheen_roughness, vec3 sheen_tint, vec3 emission_color, float emission_strength, bool has_bounces)
+// Facets under a film reflect one colour, that of the angle at which the surface is seen.
+void add_filmed(inout Bsdf b, vec3 weight, vec3 f, float NoV, bool has_bounces)
+{
+    add_metal(b, weight, f, f, vec3(0.0), NoV, has_bounces);
+}
+
+// Reflectance under a film [nm] of a dielectric whose own one begins at f0.
+vec3 film_tinted(float NoV, float film, float film_ior, float eta, vec3 f0)
+{
+    vec3 f = film_over_dielectric(NoV, film, film_ior, eta);
+    float own = f0_of_ior(eta);
+    return own > 1e-5 ? clamp(f * mix(vec3(1.0), f0 / own, clamp((1.0 - f) / (1.0 - own), 0.0, 1.0)), 0.0, 1.0) : f;
+}
+
+void add_filmed_glass(inout Bsdf b, vec3 weight, float ior, vec3 f0, vec3 through, float NoV, bool is_back, float film, float film_ior)
+{
+    float eta = is_back ? 1.0 / ior : ior;
+    vec3 f = film_tinted(NoV, film, is_back ? film_ior / ior : film_ior, eta, f0);
+    b.glass_eta = eta;
+    b.is_level = true;
+    b.glass_f0 += weight * f;
+    b.glass_f90 += weight;
+    b.glass_through += weight * (1.0 - f) * through;
+    b.glossy += weight * f;
+    b.transmission += weight * (1.0 - f) * through;
+}
+
+// film: thickness [nm]; a literal 0 leaves all about films out of the program.
+void add_principled(inout Closures c, float weight, Geo g, vec3 base_color, float metallic, float roughness, float ior, float alpha, vec3 normal, float diffuse_roughness, float subsurface, float specular_level, vec3 specular_tint, float anisotropy, float rotation, vec3 tangent, float transmission, float coat, float coat_roughness, float coat_ior, vec3 coat_tint, vec3 coat_normal, float sheen, float sheen_roughness, vec3 sheen_tint, vec3 emission_color, float emission_strength, float film, float film_ior, bool has_bounces)
 {
     float opacity = clamp(alpha, 0.0, 1.0), metal = clamp(metallic, 0.0, 1.0), glass = clamp(transmission, 0.0, 1.0);
     float r = clamp(roughness, 0.0, 1.0), index = max(ior, 1e-5);
@@ -62,15 +93,26 @@ void closure_principled(inout Closures c, float weight, Geo g, vec3 base_color, 
     c.emission += rest.seen * emission_color * emission_strength;
     vec3 dip = f82_dip(clamped, min(tint, 1.0));
     Bsdf b = grained_lobes(anisotropy > 0.0 ? stretched_alpha(r, anisotropy) : vec2(r * r), n, tangent, rotation);
-    if (metal > 0.0)
+    bool has_film = film > FILM_CUTOFF;
+    float n_film = max(film_ior, 1e-5);
+    if (metal > 0.0 && has_film)
+        add_filmed(b, metal * rest.seen, film_over_metal(NoV, film, n_film, f82(clamped, dip, NoV)), NoV, has_bounces);
+    else if (metal > 0.0)
         add_metal(b, metal * rest.seen, clamped, vec3(1.0), dip, NoV, has_bounces);
     c.mean += metal * rest.mean * metal_mean(clamped, dip, vec3(1.0), r, has_bounces);
     pass_through(rest, vec3(1.0 - metal), vec3(1.0 - metal));
-    if (glass > 0.0)  // its facets have no grain
+    if (glass > 0.0 && has_film)
+        add_filmed_glass(b, glass * rest.seen, index, clamp(f0_of_ior(index) * tint, 0.0, 1.0), sqrt(clamped), NoV, g.is_back, film, n_film);
+    else if (glass > 0.0)  // its facets have no grain
         add_glass(b, glass * rest.seen, index, clamp(f0_of_ior(index) * tint, 0.0, 1.0), vec3(1.0), sqrt(clamped), NoV, g.is_back, has_bounces);
     pass_through(rest, vec3(1.0 - glass), vec3(1.0 - glass));
     float f0 = 2.0 * max(specular_level, 0.0) * f0_of_ior(index), eta = ior_of_f0(f0);
-    if (f0 > 0.0) {
+    if (has_film) {
+        vec3 f = film_tinted(NoV, film, n_film, index < 1.0 ? 1.0 / eta : eta, clamp(f0 * tint, 0.0, 1.0));
+        add_filmed(b, rest.seen, f, NoV, has_bounces);
+        c.mean += rest.mean * f;
+        pass_through(rest, vec3(below(f)), vec3(below(f)));
+    } else if (f0 > 0.0) {
         vec3 start = clamp(f0 * tint, 0.0, 1.0), mean = coat_mean(eta, start, r, has_bounces);
         float through = add_coat(b, rest.seen, index < 1.0 ? 1.0 / eta : eta, start, NoV, has_bounces);
         c.mean += rest.mean * mean;
@@ -81,4 +123,14 @@ void closure_principled(inout Closures c, float weight, Geo g, vec3 base_color, 
     float spread = clamp(subsurface, 0.0, 1.0);
     add_ground(c, rest.seen * spread * clamped, n, LAMBERT);
     add_ground(c, rest.seen * (1.0 - spread) * color, n, rough_ground(color, diffuse_roughness, NoV));
+}
+
+void closure_principled(inout Closures c, float weight, Geo g, vec3 base_color, float metallic, float roughness, float ior, float alpha, vec3 normal, float diffuse_roughness, float subsurface, float specular_level, vec3 specular_tint, float anisotropy, float rotation, vec3 tangent, float transmission, float coat, float coat_roughness, float coat_ior, vec3 coat_tint, vec3 coat_normal, float sheen, float sheen_roughness, vec3 sheen_tint, vec3 emission_color, float emission_strength, bool has_bounces)
+{
+    add_principled(c, weight, g, base_color, metallic, roughness, ior, alpha, normal, diffuse_roughness, subsurface, specular_level, specular_tint, anisotropy, rotation, tangent, transmission, coat, coat_roughness, coat_ior, coat_tint, coat_normal, sheen, sheen_roughness, sheen_tint, emission_color, emission_strength, 0.0, 1.0, has_bounces);
+}
+
+void closure_principled_filmed(inout Closures c, float weight, Geo g, vec3 base_color, float metallic, float roughness, float ior, float alpha, vec3 normal, float diffuse_roughness, float subsurface, float specular_level, vec3 specular_tint, float anisotropy, float rotation, vec3 tangent, float transmission, float coat, float coat_roughness, float coat_ior, vec3 coat_tint, vec3 coat_normal, float sheen, float sheen_roughness, vec3 sheen_tint, vec3 emission_color, float emission_strength, float film, float film_ior, bool has_bounces)
+{
+    add_principled(c, weight, g, base_color, metallic, roughness, ior, alpha, normal, diffuse_roughness, subsurface, specular_level, specular_tint, anisotropy, rotation, tangent, transmission, coat, coat_roughness, coat_ior, coat_tint, coat_normal, sheen, sheen_roughness, sheen_tint, emission_color, emission_strength, film, film_ior, has_bounces);
 }

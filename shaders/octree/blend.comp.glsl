@@ -26,5 +26,6 @@ void main()
     uint at = i * uint(u_n_sums);
     float area = max(float(surfels[i].area), 1.0);
     colors[i].albedo = clamp(mean3(at, area), 0.0, MAX_ALBEDO);
-    colors[i].emission = u_emission_unit > 0.0 ? mean3(at + 3u, area) * u_emission_unit : vec3(0.0);
+    colors[i].through = float(int(sums[at + 3u])) / area;
+    colors[i].emission = u_emission_unit > 0.0 ? mean3(at + 4u, area) * u_emission_unit : vec3(0.0);
 }

@@ -2,7 +2,7 @@
 // Purpose:    add what each triangle looks like to each surfel, weighted as in octree/accumulate.
 // Formula:    sum_i A_i x_i
 // In:         triangles, materials, octree
-// Out:        Sums: per surfel albedo, emission: u_n_sums words
+// Out:        Sums: per surfel albedo, share of it that goes through, emission: u_n_sums words
 // Invocation: one strip of columns of one triangle
 
 #include "bind/voxel_part.glsl"
@@ -16,6 +16,7 @@ void visit(Strip strip, ivec3 cell)
         return;
     Part part = part_of(strip, cell);
     add(at, part.piece.weight * part.albedo);
+    add(at + 3u, part.piece.weight * part.through);
     if (u_emission_unit > 0.0)
-        add(at + 3u, part.piece.weight * part.emission / u_emission_unit);
+        add(at + 4u, part.piece.weight * part.emission / u_emission_unit);
 }

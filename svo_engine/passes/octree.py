@@ -33,7 +33,7 @@ BLEND = Pass("octree/blend.comp.glsl")
 NODE = 4  # children along each side of a node
 NODE_WORDS = 6  # two for each axis
 SUMS = 10  # words a surfel
-COLOR_SUMS = 3  # and three more where anything shines
+COLOR_SUMS = 4  # and three more where anything shines
 _SURFEL, _COLORS = (layouts.dtype(layout).itemsize for layout in (layouts.SURFEL, layouts.SURFEL_COLORS))
 
 

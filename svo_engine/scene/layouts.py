@@ -86,7 +86,8 @@ VOXEL: Fields = (("emission", "vec3"), ("voxel", "uint"), ("albedo_coverage", "u
 SURFEL: Fields = (("position", "vec3"), ("normal", "uint"), ("voxel", "uint"), ("outer", "uint"), ("area", "uint"))
 
 # What a surfel looks like, apart, for an edit of a material changes nothing else. Two texels
-SURFEL_COLORS: Fields = (("albedo", "vec3"), ("emission", "vec3"))
+# through: the share of the albedo that sends light on to the other side
+SURFEL_COLORS: Fields = (("albedo", "vec3"), ("through", "float"), ("emission", "vec3"))
 
 # A node of a tree of boxes: two children, each its box and a reference: a node's index, or BVH_LEAF + a leaf's index
 BVH_NODE: Fields = (("low_a", "vec3"), ("child_a", "uint"), ("high_a", "vec3"), ("child_b", "uint"),

@@ -35,7 +35,7 @@ def test_packing_keeps_what_matters(device):
     albedo, opacity = rng.random((500, 3)).astype("f4"), rng.random(500).astype("f4")
     emission = (rng.random((500, 3)) * 10.0 ** rng.uniform(-30, 30, (500, 1))).astype("f4")
     emission[0] = 0
-    cell = "unpacked_cell(packed_cell(Cell(albedo, opacity, emission)))"
+    cell = "unpacked_cell(packed_cell(Cell(albedo, opacity, emission, opacity)))"
     given = {"albedo": albedo, "opacity": opacity, "emission": emission}
     found = evaluate(device, "vec3", f"{cell}.albedo", BAKED, **given)
     assert (np.abs(np.sqrt(found) - np.sqrt(albedo)) <= [2.6e-4, 2.6e-4, 5.1e-4]).all()

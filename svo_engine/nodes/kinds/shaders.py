@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from ..expr import Constant, Expr
 from ..reader import Reader
-from ..signatures import library
 from . import Outputs, kind
 
 # What stands in for a distribution of facets
@@ -147,17 +146,20 @@ def principled(n: Reader) -> Outputs:
     """All of it."""
     if _is_used(n, "Subsurface Weight"):
         n.warn("light does not spread below the surface: it leaves where it came")
-    _warn_of_film(n)
+    is_filmed = _is_used(n, "Thin Film Thickness")
+    film = (n.number("Thin Film Thickness"), n.number("Thin Film IOR", 1.33)) if is_filmed else ()
     white, normal = (1.0, 1.0, 1.0), _normal(n)
     coat_normal = n.vector("Coat Normal", lambda: n.call("normal_of_point"))
     return {"BSDF": n.closure(
-        "closure_principled", n.color("Base Color"), n.number("Metallic"), n.number("Roughness"), n.number("IOR", 1.5),
-        n.number("Alpha", 1.0), normal, n.number("Diffuse Roughness"), n.number("Subsurface Weight"),
-        n.number("Specular IOR Level", 0.5), n.color("Specular Tint", white), n.number("Anisotropic"),
+        "closure_principled_filmed" if is_filmed else "closure_principled", n.color("Base Color"),
+        n.number("Metallic"), n.number("Roughness"), n.number("IOR", 1.5), n.number("Alpha", 1.0), normal,
+        n.number("Diffuse Roughness"), n.number("Subsurface Weight"), n.number("Specular IOR Level", 0.5),
+        n.color("Specular Tint", white), n.number("Anisotropic"),
         n.number("Anisotropic Rotation"), _tangent(n, "Anisotropic"), n.number("Transmission Weight"),
         n.number("Coat Weight"), n.number("Coat Roughness", 0.03), n.number("Coat IOR", 1.5),
         n.color("Coat Tint", white), coat_normal, n.number("Sheen Weight"), n.number("Sheen Roughness", 0.5),
-        n.color("Sheen Tint", white), n.color("Emission Color", white), n.number("Emission Strength"), _bounces(n))}
+        n.color("Sheen Tint", white), n.color("Emission Color", white), n.number("Emission Strength"), *film,
+        _bounces(n))}
 
 
 def _normal(n: Reader) -> Expr:
@@ -168,8 +170,7 @@ def _tangent(n: Reader, anisotropy: str) -> Expr:
     """Where facets have a grain, along which it runs: round the object's own z where nothing says otherwise."""
     if not _is_used(n, anisotropy):
         return n.value((0.0, 0.0, 0.0))
-    default = "tangent_of_point" if "tangent_of_point" in library() else "normal_of_point"
-    return n.vector("Tangent", lambda: n.call(default))
+    return n.vector("Tangent", lambda: n.call("radial_tangent", n.literal(2)))
 
 
 def _bounces(n: Reader) -> Expr:
