@@ -16,7 +16,7 @@ from ..scene.graph import Graph
 from ..scene.types import Material
 from .build import Built
 from .closures import leaves
-from .displacement import method_of, normal_of
+from .displacement import method_of, normal_of, notes_of
 from .emit import Datum, Writer
 from .traits import Traits, traits_of
 
@@ -119,7 +119,7 @@ def compiled_tree(graph: Graph) -> One:
 
 
 def _compile(graph: Graph) -> One:
-    notes: dict[str, None] = {}
+    notes: dict[str, None] = dict.fromkeys(notes_of(graph))
     built = Built(graph, {"surface": graph.surface, "displacement": graph.displacement}, notes.setdefault)
     found = leaves(built.shader("surface"))
     writer, normal = Writer(), normal_of(graph, built)

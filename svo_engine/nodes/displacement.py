@@ -28,6 +28,14 @@ def move_of(graph: Graph, built: Built) -> Expr | None:
     return None if is_zero or method_of(graph) == "BUMP" else by
 
 
+def notes_of(graph: Graph) -> list[str]:
+    """What is not as a setting says."""
+    most = graph.settings.get("max_vertex_displacement", 0)
+    if graph.displacement is None or method_of(graph) == "BUMP" or not isinstance(most, (int, float)) or most <= 0:
+        return []
+    return ["vertices are moved farther than Max Vertex Displacement, as Cycles does"]
+
+
 def normal_of(graph: Graph, built: Built) -> Expr | None:
     """The normal that takes the place of the surface's own; None where that stays."""
     method, by = method_of(graph), displacement_of(built)

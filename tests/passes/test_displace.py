@@ -13,7 +13,7 @@ from svo_engine.scene.graph import Graph, Link, Node
 from svo_engine.scene.moved import flat_faces, moved_mesh
 from svo_engine.scene.types import Camera, Material, Scene
 from tests import scenes
-from tests.on_gpu import film_of
+from tests.on_gpu import film_of, picture_of
 from tests.rays import RAYS
 
 DISPATCHED = "displace/vertices invocations"
@@ -27,7 +27,7 @@ def lifting(height: float, method: str = "DISPLACEMENT", color: float = 1.0, spa
                   {"Height": height, "Midlevel": 0.5, "Scale": 2.0, "Normal": None}))
     graph = Graph(nodes, Link(0, "Emission"), displacement=Link(1, "Displacement"),
                   settings={"displacement_method": method})
-    return Material("Lift", graph=graph, is_exact=False)
+    return Material("Lift", (0, 0, 0), specular_level=0, emission=(color,) * 3, graph=graph, is_exact=False)
 
 
 def square(name: str = "Square") -> scenes.Mesh:
@@ -92,6 +92,34 @@ def test_only_edits_of_moves_move_anew(session):
     assert dispatched(lifting(0.9, "BUMP")) == 0
     assert dispatched(lifting(0.9, space="WORLD")) == 4
     assert dispatched(lifting(0.9, space="WORLD"), at=0.5) == 4
+
+
+def test_a_draft_moves_nothing_until_that_is_compiled(session):
+    """A structure that no other test has: two Displacement nodes, one in the other."""
+    material = lifting(0.7)
+    graph = material.graph
+    assert graph
+    nodes = (*graph.nodes, Node("ShaderNodeDisplacement", {"space": "OBJECT"},
+                                {"Height": Link(1, "Displacement"), "Midlevel": 0.0, "Scale": 5.0, "Normal": None}))
+    scene = glowing(replace(material, graph=replace(graph, nodes=nodes, displacement=Link(2, "Displacement"))))
+    view, settings = scenes.view(scene), replace(scenes.SMALL, **OPEN)
+
+    def draft():
+        return list(session.client().films(scene, view, settings, is_draft=True))[-1].planes["Combined"]
+
+    at_rest = picture_of(session, glowing(lifting(0.5)), **OPEN)
+    assert np.array_equal(draft(), at_rest)
+    whole = picture_of(session, scene, **OPEN)
+    assert not np.array_equal(whole, at_rest)
+    assert np.array_equal(draft(), whole)
+
+
+def test_a_limit_is_told(session):
+    material = lifting(0.7)
+    assert material.graph
+    graph = replace(material.graph, settings={**material.graph.settings, "max_vertex_displacement": 0.1})
+    (told,) = film_of(session, glowing(replace(material, graph=graph)), **OPEN).stats["limits"]
+    assert told == "Material 'Lift': vertices are moved farther than Max Vertex Displacement, as Cycles does"
 
 
 def moved(mesh: scenes.Mesh, moves: np.ndarray) -> scenes.Mesh:
