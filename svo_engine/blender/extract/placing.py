@@ -153,7 +153,7 @@ class Placing:
 
 
 def _is_adaptive(owner: Any) -> bool:
-    """Whether Cycles would dice the object's surface by the size of pixels: Blender 5 asks its modifier, 4 the object."""
+    """Whether Cycles would dice the surface by the size of pixels: Blender 5 asks the modifier, 4 the object."""
     last = owner.modifiers[-1] if owner.modifiers else None
     if last is None or last.type != "SUBSURF":
         return False
