@@ -36,6 +36,10 @@ GIVEN = {
     "attribute colour": output("Attribute", "Color", attribute_name="Color"),
     "missing": output("Attribute", "Color", attribute_name="None"),
     "missing alpha": output("Attribute", "Alpha", attribute_name="None"),
+    "property": output("Attribute", "Color", attribute_type="OBJECT", attribute_name="tint"),
+    "property's factor": output("Attribute", "Fac", attribute_type="OBJECT", attribute_name="tint"),
+    "property of the view layer": output("Attribute", "Fac", attribute_type="VIEW_LAYER",
+                                         attribute_name="frame_current"),
     "bytes": output("VertexColor", "Color", layer_name="Bytes"),
     "active colour": output("VertexColor", "Color"), "active alpha": output("VertexColor", "Alpha"),
     "missing colour alpha": output("VertexColor", "Alpha", layer_name="None"),
@@ -69,6 +73,7 @@ def change(i, owner):
     owner.scale = 0.7, 0.6, 0.9
     owner.pass_index, owner.color = i + 1, (0.1, 0.3, 0.5, 0.7)
     owner.active_material.pass_index = 2 * i
+    owner["tint"] = 0.2, 0.4, 0.9
     mesh, rng = owner.data, np.random.default_rng(0)
     for attribute, kind, domain, width, field in (
             ("Three", "FLOAT_VECTOR", "POINT", 3, "vector"), ("Face", "FLOAT", "FACE", 1, "value"),
