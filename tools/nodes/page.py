@@ -20,18 +20,19 @@ of the values, at least 1; *off* is the share of pixels that differ by more than
 a checker, `floor`) are a few. Shaders are seen from above below a white sky, and *worst* is the difference of the mean.
 
 `python -m tools.nodes` writes this page. Ours: {device}. {n} modes of {kinds} nodes: {right} right ({worst:g} at most),
-{jumps} right but at jumps (less than 5 % of the pixels off), {told} not supported and told, {wrong} neither.
+{jumps} right but at jumps (less than 5 % of the pixels off), {told} not supported and told, {wrong} neither; {missing}
+not measured yet.
 
 """
 
 
 def page(modes: Sequence[Any], known: dict[str, dict[str, Any]], device: str) -> str:
     """The page of those modes that were measured."""
-    modes = [m for m in modes if m.key in known]
+    n_all, modes = len(modes), [m for m in modes if m.key in known]
     verdicts = [verdict(known[m.key], m.is_shader) for m in modes]
     text = HEAD.format(device=device, n=len(modes), kinds=len({m.kind for m in modes}), worst=RIGHT,
                        right=verdicts.count("right"), jumps=verdicts.count("at jumps"), told=verdicts.count("told"),
-                       wrong=verdicts.count("wrong"))
+                       wrong=verdicts.count("wrong"), missing=n_all - len(modes))
     return text + "\n".join(_lines(modes, known)) + "\n"
 
 
