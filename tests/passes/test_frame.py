@@ -84,7 +84,7 @@ def test_a_moved_camera_needs_new_light_if_highlights_are_stored(session, render
 
 
 LIT = {"cache/direct", "gather/rays"}
-ALL = {"bvh/nearest", "octree/accumulate", "cache/link", *LIT}
+ALL = {"bvh/nearest", "octree/accumulate", "octree/paint", "cache/link", *LIT}
 
 
 def made(session, scene) -> set[str]:
@@ -95,9 +95,9 @@ def made(session, scene) -> set[str]:
 
 @pytest.mark.parametrize(("edit", "expected"), [
     (lambda s: replace(s, lights=(replace(s.lights[0], emitted=(9, 8, 7)),)), LIT),
-    (lambda s: replace(s, world=World((1, 1, 0))), {"cache/link", *LIT}),
+    (lambda s: replace(s, world=World((1, 1, 0))), LIT),
     (lambda s: replace(s, materials=(replace(s.materials[0], base_color=(0.1, 0.2, 0.3)), *s.materials[1:])),
-     {"octree/accumulate", "cache/link", *LIT}),
+     {"octree/paint", "gather/rays"}),
     (copy.deepcopy, {"gather/rays"}),
 ], ids=["a lamp's power", "the world", "a colour", "nothing, loaded again"])
 def test_an_edit_costs_its_own_part(session, edit, expected):
