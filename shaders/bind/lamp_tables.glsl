@@ -5,6 +5,7 @@
 
 const float WIDE_SPOT = 0.17;  // cosine of half a spot's angle below which its table is of all directions
 
+uniform bool u_lamps_have_nodes;          // whether any has a table, or another falloff than the square of the distance
 uniform usamplerBuffer u_lamp_tables;  // RGB as bits of floats
 
 // The table's texel: columns go round if it is of all directions.
@@ -32,7 +33,16 @@ vec2 lamp_uv(Light light, vec3 p, LightSample s, out bool goes_round)
     return vec2(0.5 - (d.x != 0.0 || d.y != 0.0 ? atan(d.y, d.x) : 0.0) / (2.0 * PI), 0.5 + atan(d.z, length(d.xy)) / PI);
 }
 
-// What its nodes make of a lamp's light that a sample from p has found.
+// What its nodes make of a lamp's light on the way to where it arrives.
+float falloff_over(Light light, float distance)
+{
+    float d2 = distance * distance, factor = light.falloff == FALLOFF_LINEAR ? distance : 1.0;
+    if (light.falloff == FALLOFF_CONSTANT)
+        factor = d2;
+    return light.smoothing > 0.0 ? factor * d2 / (light.smoothing + d2) : factor;
+}
+
+// What its table makes of a lamp's light that a sample from p has found.
 vec3 lamp_factor(Light light, vec3 p, LightSample s)
 {
     ivec2 size = ivec2(light.table_size & 0xffffu, light.table_size >> 16u);
@@ -50,18 +60,20 @@ vec3 lamp_factor(Light light, vec3 p, LightSample s)
     return sum;
 }
 
+LightSample with_nodes(Light light, vec3 p, LightSample s)
+{
+    if (u_lamps_have_nodes && s.E_perp != vec3(0.0))
+        s.E_perp *= falloff_over(light, s.distance) * lamp_factor(light, p, s);
+    return s;
+}
+
 // As sample_light and meet_light, with what the lamp's nodes make of it.
 LightSample sample_lamp(Light light, vec3 p, vec2 u)
 {
-    LightSample s = sample_light(light, p, u);
-    s.E_perp *= lamp_factor(light, p, s);
-    return s;
+    return with_nodes(light, p, sample_light(light, p, u));
 }
 
 LightSample meet_lamp(Light light, vec3 p, vec3 d)
 {
-    LightSample s = meet_light(light, p, d);
-    if (s.pdf > 0.0)
-        s.E_perp *= lamp_factor(light, p, s);
-    return s;
+    return with_nodes(light, p, meet_light(light, p, d));
 }

@@ -12,7 +12,6 @@
 #include "bind/geometry.glsl"
 #include "bind/lights.glsl"
 #include "bind/shapes.glsl"
-#include "bind/surfel_colors.glsl"
 
 const float CLOSE = 8.0;  // voxels up to which a diffuse ray sees all that it meets lit exactly
 
@@ -49,13 +48,14 @@ Place end_of(Crossing c, Way way, uint seed, out vec3 L)
     uint side = cache_side(way.o + c.t * way.d, normal_of(c.instance, c.triangle), way.d);
     if (side == NOTHING)
         return at;
-    vec4 look = look_of_surfel(side / 2u);
+    vec4 indirect = cache[cache_entry(INDIRECT, side)], lamps = cache[cache_entry(LAMPS, side)];
+    vec4 look = look_from(vec2(indirect.w, lamps.w));
     vec3 reflected = look.rgb / PI * (1.0 - look.a);
-    L = reflected * cache[cache_entry(INDIRECT, side)].rgb;
+    L = reflected * indirect.rgb;
     for (int i = 0, n = look.a > 0.0 ? 1 : 0; i < n; i++)  // see ground_factor
         L += look.rgb / PI * look.a * (cache[cache_entry(INDIRECT, side ^ 1u)].rgb + cache[cache_entry(LAMPS, side ^ 1u)].rgb);
     if (u_n_tree_draws == 0 && c.t * u_voxels_per_metre > CLOSE) {
-        L += reflected * cache[cache_entry(LAMPS, side)].rgb;
+        L += reflected * lamps.rgb;
     } else {
         at.surface = seen_at(c.instance, c.triangle, c.bary, -way.d).surface;
         at.surface.normal = facing(at.surface.normal, -way.d);

@@ -144,33 +144,17 @@ LightSample meet_area(Light light, vec3 p, vec3 d)
     return cosine > 0.0 && dot(to_light, d) > 0.0 && outside < 1.0 ? area_at(light, to_light) : NO_LIGHT;
 }
 
-// What the lamp's nodes make of its light on the way to where it arrives.
-float falloff_over(Light light, float distance)
-{
-    float d2 = distance * distance, factor = light.falloff == FALLOFF_LINEAR ? distance : 1.0;
-    if (light.falloff == FALLOFF_CONSTANT)
-        factor = d2;
-    return light.smoothing > 0.0 ? factor * d2 / (light.smoothing + d2) : factor;
-}
-
-// A lamp's light after its cone and its falloff.
-LightSample shaped(Light light, LightSample s)
-{
-    if (light.kind == LIGHT_SPOT)
-        s.E_perp *= spot_falloff(light, s.wi);
-    if (light.falloff != FALLOFF_QUADRATIC || light.smoothing > 0.0)
-        s.E_perp *= falloff_over(light, s.distance);
-    return s;
-}
-
 // A point of the lamp as seen from p.
 LightSample sample_light(Light light, vec3 p, vec2 u)
 {
     if (light.kind == LIGHT_SUN)
         return sample_sun(light, u);
     if (light.kind == LIGHT_AREA)
-        return shaped(light, sample_area(light, p, u));
-    return shaped(light, light.soft_falloff != 0u ? sample_facing_disk(light, p, u) : sample_sphere(light, p, u));
+        return sample_area(light, p, u);
+    LightSample s = light.soft_falloff != 0u ? sample_facing_disk(light, p, u) : sample_sphere(light, p, u);
+    if (light.kind == LIGHT_SPOT)
+        s.E_perp *= spot_falloff(light, s.wi);
+    return s;
 }
 
 // The point of the lamp that a ray from p along unit d meets, if it meets it and the lamp has a size; else pdf is 0.
@@ -179,6 +163,9 @@ LightSample meet_light(Light light, vec3 p, vec3 d)
     if (light.kind == LIGHT_SUN)
         return meet_sun(light, d);
     if (light.kind == LIGHT_AREA)
-        return shaped(light, meet_area(light, p, d));
-    return shaped(light, light.soft_falloff != 0u ? meet_facing_disk(light, p, d) : meet_sphere(light, p, d));
+        return meet_area(light, p, d);
+    LightSample s = light.soft_falloff != 0u ? meet_facing_disk(light, p, d) : meet_sphere(light, p, d);
+    if (light.kind == LIGHT_SPOT)
+        s.E_perp *= spot_falloff(light, s.wi);
+    return s;
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from ..scene.graph import Graph
 from .build import Built
-from .expr import Constant, Expr, Shifted, call, constant, converted, literal
+from .expr import Constant, Expr, Heights, call, constant, converted, literal
 
 _WIDTH = 0.1  # pixels between the places where heights are compared
 
@@ -43,6 +43,6 @@ def normal_of(graph: Graph, built: Built) -> Expr | None:
         return None
     normal = call("normal_of_point")
     height = call("height_along", by, normal)
-    shifts = (Shifted("float", height, axis, _WIDTH) for axis in (0, 1))
+    places = Heights("vec3", height, _WIDTH)
     function = "bumped_normal_of_object" if method == "BOTH" else "bumped_normal"
-    return call(function, height, *shifts, normal, constant(1.0), constant(1.0), literal(_WIDTH))
+    return call(function, places["x"], places["y"], places["z"], normal, constant(1.0), constant(1.0), literal(_WIDTH))

@@ -10,11 +10,24 @@ from typing import Any
 import numpy as np
 
 from .closures import Weighted
-from .expr import Call, Constant, Expr, Field, Literal, Meant, Named, Shifted, Table, children
+from .expr import Call, Constant, Expr, Field, Heights, Literal, Meant, Named, Table, children
 from .signatures import library
 
 _READ = {"float": "value_at(g, {})", "vec3": "value3_at(g, {})", "uint": "index_at(g, {})",
          "int": "int(value_at(g, {}))", "bool": "(value_at(g, {}) != 0.0)"}
+
+_HEIGHTS = """vec3 heights_{k}(Geo g)
+{{
+    vec3 h = vec3(0.0);
+    for (int i = 0, n = u_footprint.y < 0.0 ? 1 : 3; i < n; i++) {{
+        Geo at = g;
+        if (i > 0)
+            at = shifted(g, i - 1, {width});
+        h[i] = height_{k}(at);
+    }}
+    return h;
+}}
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +57,7 @@ class Writer:
         self._files: dict[str, None] = {}
         self._functions: list[str] = []
         self._placed: dict[int, int] = {}  # of a datum, by the expression
-        self._shifted: dict[int, str] = {}
+        self._heights_of: dict[int, str] = {}
 
     def function(self, head: str, roots: Sequence[Expr], end: Any, begin: Sequence[str] = ()) -> None:
         """Add a function whose last lines are end(codes of the roots, as a function of an expression)."""
@@ -95,13 +108,11 @@ class Writer:
         """Lines that compute what the roots need, each expression once, and a function from one to its code."""
         lines: list[str] = []
         codes: dict[int, str] = {}
-        moved: dict[tuple[int, float], str] = {}
         for expr in in_order(roots):
-            codes[id(expr)] = self._code(expr, codes, lines, moved)
+            codes[id(expr)] = self._code(expr, codes, lines)
         return lines, lambda expr: codes[id(expr)]
 
-    def _code(self, expr: Expr, codes: dict[int, str], lines: list[str],
-              moved: dict[tuple[int, float], str]) -> str:
+    def _code(self, expr: Expr, codes: dict[int, str], lines: list[str]) -> str:
         if isinstance(expr, Call):
             self.use(expr.signature.file)
             given = [*(["g"] if expr.signature.takes_geo else []), *(codes[id(a)] for a in expr.arguments)]
@@ -111,21 +122,23 @@ class Writer:
             return codes[id(expr.of)] + (f".{expr.name}" if isinstance(expr, Field) else "")
         if isinstance(expr, (Literal, Table)):
             return expr.text if isinstance(expr, Literal) else f"{self._place(expr)}u"
-        if isinstance(expr, Shifted):
-            by = expr.axis, expr.width
-            if by not in moved:
-                lines.append(f"Geo v{len(lines)} = shifted(g, {expr.axis}, {expr.width!r});")
-                moved[by] = f"v{len(lines) - 1}"
-            return f"{self._function_of(expr.of)}({moved[by]})"
+        if isinstance(expr, Heights):
+            lines.append(f"vec3 v{len(lines)} = {self._heights(expr)}(g);")
+            return f"v{len(lines) - 1}"
         assert isinstance(expr, (Constant, Named))
         return _READ[expr.type].format(f"{self._place(expr)}u")
 
-    def _function_of(self, expr: Expr) -> str:
-        """The name of a function of g that gives the expression."""
-        if id(expr) not in self._shifted:
-            self._shifted[id(expr)] = name = f"part_{len(self._shifted)}"
-            self.value(f"{expr.type} {name}(Geo g)", expr)
-        return self._shifted[id(expr)]
+    def _heights(self, expr: Heights) -> str:
+        """The name of a function of g that gives the heights. Compilers do not know where its loop ends: they would
+        write out three times what feeds the height.
+        """
+        name = self._heights_of.get(id(expr))
+        if name is None:
+            k = len(self._heights_of)
+            name = self._heights_of[id(expr)] = f"heights_{k}"
+            self.value(f"float height_{k}(Geo g)", expr.of)
+            self._functions.append(_HEIGHTS.format(k=k, width=repr(expr.width)))
+        return name
 
     def _place(self, expr: Constant | Named | Table) -> int:
         if id(expr) not in self._placed:
@@ -143,7 +156,7 @@ def in_order(roots: Sequence[Expr]) -> list[Expr]:
         waiting = [root]
         while waiting:
             expr = waiting[-1]
-            before = () if isinstance(expr, Shifted) else children(expr)
+            before = () if isinstance(expr, Heights) else children(expr)
             missing = [part for part in reversed(before) if id(part) not in done]
             if missing:
                 waiting += missing

@@ -90,12 +90,15 @@ class Meant(Expr):
 
 
 @dataclass(frozen=True, eq=False)
-class Shifted(Expr):
-    """`of` at the point that is seen `width` pixels away, along x (axis 0) or y (1) of the picture."""
+class Heights(Expr):
+    """`of`, a float, at the point, and where it is seen `width` pixels away along x and y of the picture."""
 
     of: Expr
-    axis: int
     width: float
+
+    def __getitem__(self, name: str) -> Expr:
+        """x, y or z."""
+        return Field("float", self, name)
 
 
 def call(name: str, *arguments: Expr) -> Expr:
@@ -156,7 +159,7 @@ def children(expr: Expr) -> tuple[Expr, ...]:
     """What it is computed from."""
     if isinstance(expr, Call):
         return expr.arguments
-    return (expr.of,) if isinstance(expr, (Field, Shifted, Meant)) else ()
+    return (expr.of,) if isinstance(expr, (Field, Meant, Heights)) else ()
 
 
 def _number_of(expr: Expr) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..scene.graph import Node, Plain
 from .closures import Closure, Leaf
-from .expr import Constant, Expr, Named, Shifted, Table, as_vector, call, constant, converted, literal
+from .expr import Expr, Heights, Named, Table, as_vector, call, constant, converted, literal
 
 Fed = Expr | Closure | None
 
@@ -88,9 +88,9 @@ class Reader:
         """A uint: the number of the attribute of that name, for `attribute_at`."""
         return Named("uint", "attribute", name)
 
-    def shifted(self, expr: Expr, axis: int, width: float = 1.0) -> Expr:
-        """The same at the point that is seen `width` pixels away, along x (0) or y (1) of the picture."""
-        return expr if isinstance(expr, Constant) else Shifted(expr.type, expr, axis, width, role=expr.role)
+    def heights(self, expr: Expr, width: float) -> Expr:
+        """x: a number at the point; y, z: where it is seen `width` pixels away along x and y of the picture."""
+        return Heights("vec3", expr, width)
 
     def warn(self, sentence: str) -> None:
         """Tell the user, once, what is not as in Blender, and what stands in."""

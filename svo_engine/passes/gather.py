@@ -31,7 +31,7 @@ def gather_cones(device: Device, gpu_scene: GpuScene, lit: LitVoxels, eye: Eye, 
     device.dispatch(
         CONES, part.n, **gpu_scene.placing.instances, **gpu_scene.materials, **gpu_scene.world(), **eye.pixels(part),
         **grid.uniforms(), **parts.of(part, EYE), Lights=gpu_scene.lamps.rows,
-        u_lamp_tables=gpu_scene.lamps.tables, u_albedo=gpu_scene.table.table,
+        **gpu_scene.lamps.nodes(), u_albedo=gpu_scene.table.table,
         u_radiance=lit.radiance, u_n_lights=len(gpu_scene.lamps.lights), u_has_light=gpu_scene.needs.light,
         u_has_gloss=gpu_scene.needs.gloss, u_gloss=parts.planes["gloss"], u_cone_offset=settings.cone_offset,
         u_cone_step=settings.cone_step, u_cone_distance=settings.cone_distance * grid.n, u_sample=eye.sample,
@@ -51,7 +51,7 @@ def gather_rays(device: Device, gpu_scene: GpuScene, cache: LightCache, tracer: 
     ends = {"u_n_rays": n_rays, "u_ends": parts.planes["ends"]}
     device.dispatch(
         RAYS, part.n, tracer.constants(), **{**tracer.resources(), **gpu_scene.geometry}, **lights.resources(),
-        **gpu_scene.world(), **cache.resources(), **cache.colors.resources(), **wave, **ends,
+        **gpu_scene.world(), **cache.resources(), **wave, **ends,
         u_n_facing=1 + needs.glass, u_keeps_draws=needs.gloss, u_keeps_ends=needs.emission)
     if needs.emission and n_rays:
         device.dispatch(FOUND, part.n, **gpu_scene.geometry, **gpu_scene.emission.read, **lights.emitters(), **wave,

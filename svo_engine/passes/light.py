@@ -55,7 +55,7 @@ def light(device: Device, lamps: Lamps, voxels: Voxels, injection: Injection) ->
     scope = device.scope()
     radiance = scope.cube("radiance", voxels.grid.n)
     device.dispatch(INJECT, voxels.n_voxels, Occupancy=voxels.occupancy, Voxels=voxels.voxels,
-                    Lights=lamps.rows, u_lamp_tables=lamps.tables, u_n_lights=len(lamps.lights),
+                    Lights=lamps.rows, **lamps.nodes(), u_n_lights=len(lamps.lights),
                     u_n_points=injection.points, u_radiance=(radiance, 0), **voxels.grid.uniforms(),
                     u_eye=injection.eye, u_ambient=injection.ambient, u_specular=injection.specular,
                     u_shininess=injection.shininess)

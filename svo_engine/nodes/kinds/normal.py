@@ -35,9 +35,10 @@ def bump(n: Reader) -> Outputs:
     height, distance = n.number("Height"), n.number("Distance", 1.0)
     if n.setting("invert", False):
         distance = n.call("math_multiply", distance, n.value(-1.0))
-    shifts = (n.shifted(height, axis, max(width, 1e-3)) for axis in (0, 1))
-    return {"Normal": as_vector(n.call("bumped_normal", height, *shifts, normal, n.number("Strength", 1.0), distance,
-                                       n.literal(max(width, 1e-3))))}
+    places = n.heights(height, max(width, 1e-3))
+    made = n.call("bumped_normal", places["x"], places["y"], places["z"], normal, n.number("Strength", 1.0), distance,
+                  n.literal(max(width, 1e-3)))
+    return {"Normal": as_vector(made)}
 
 
 @kind("ShaderNodeDisplacement")

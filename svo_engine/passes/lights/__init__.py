@@ -29,7 +29,8 @@ TREE_DRAWS = 4  # of many lamps, at what the eye sees; one at what rays meet
 
 @dataclass(frozen=True, eq=False)
 class Lights:
-    """lamps: the buffer of all lamps that shine; tables: theirs; nodes: of their tree, which has n_leaves.
+    """lamps: the buffer of all lamps that shine; of_lamps: what their nodes make of them; nodes: of their tree, which
+    has n_leaves.
 
     n_own, n_in_tree  lamps that are drawn each by itself, and from the tree
     """
@@ -41,11 +42,11 @@ class Lights:
     n_own: int
     n_in_tree: int
     glow: Glow
-    tables: Texels
+    of_lamps: Resources
 
     def resources(self) -> Resources:
         """What bind/lights.glsl reads."""
-        return {"Lights": self.lamps, "u_lamp_tables": self.tables, "u_light_nodes": self.nodes,
+        return {"Lights": self.lamps, **self.of_lamps, "u_light_nodes": self.nodes,
                 "u_lamp_tree": (0, self.n_leaves), **self.draws(), **self.glow.sky()}
 
     def emitters(self) -> Resources:
@@ -77,7 +78,7 @@ def make_lights(device: Device, lamps: Lamps, glow: Glow) -> Lights:
     tree = light_tree(*_boxes(many, lamps.centre_ws), np.array([_intensity(light) for light in many]))
     tree["light"] += len(own)
     return Lights(scope, scope.buffer("drawn lamps", light_rows([*own, *many], lamps.centre_ws, lamps.places)),
-                  scope.texels("lamp tree", tree), len(tree) // 2, len(own), len(many), glow, lamps.tables)
+                  scope.texels("lamp tree", tree), len(tree) // 2, len(own), len(many), glow, lamps.nodes())
 
 
 def _split(lamps: list[Light]) -> tuple[list[Light], list[Light]]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...gpu.buffer import Buffer
 from ...gpu.device import Device
+from ...gpu.program import Resources
 from ...gpu.scope import GpuScope
 from ...gpu.texels import Texels
 from ...scene import layouts
@@ -32,6 +33,11 @@ class Lamps:
     centre_ws: np.ndarray
     tables: Texels
     places: Places = field(default_factory=dict)
+
+    def nodes(self) -> Resources:
+        """What bind/lamp_tables.glsl reads."""
+        bent = any(light.falloff != "QUADRATIC" or light.smoothing > 0 for light in self.lights)
+        return {"u_lamp_tables": self.tables, "u_lamps_have_nodes": bent or bool(self.places)}
 
 
 def upload_lamps(device: Device, lights: tuple[Light, ...], centre: np.ndarray,
