@@ -15,7 +15,7 @@ from .nodes.compile import Compiled
 from .scene.types import Material, Scene
 from .settings import RenderSettings
 
-ROUGH = 0.25  # alpha = roughness^2 from which paths end at what they meet, see shaders/evaluate/principled.comp.glsl
+ROUGH = 0.25  # alpha = roughness^2 from which paths end at what they meet, see shaders/evaluate/shaded.glsl
 LONGEST_PATH = 24  # vertices, the eye's own included
 
 
