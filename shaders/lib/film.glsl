@@ -53,13 +53,33 @@ vec3 film_over_dielectric(float cosine, float thickness, float film_ior, float e
     return clamp(0.5 * (across + along), 0.0, 1.0);
 }
 
-// The same over a metal that reflects `ground` and turns waves over, as a denser body would.
-vec3 film_over_metal(float cosine, float thickness, float film_ior, vec3 ground)
+// Shift of waves [rad] at a metal of index n + i k beneath a medium of index `above`: across and along the plane of incidence.
+vec2 metal_shift(float cosine, float above, float n, float k)
+{
+    float c = above * cosine, t = n * n - k * k - above * above * (1.0 - cosine * cosine), nk = 2.0 * n * k;
+    float both = sqrt(t * t + nk * nk), u = sqrt(max(0.5 * (both + t), 0.0)), v = sqrt(max(0.5 * (both - t), 0.0)), m = n * n - k * k;
+    float across = atan(-2.0 * c * v, c * c - u * u - v * v);
+    float along = atan(2.0 * c * (nk * u - m * v), (n * n + k * k) * (n * n + k * k) * cosine * cosine - above * above * (u * u + v * v));
+    return vec2(across, along);
+}
+
+// The same over a metal that reflects f0 straight on and `edge` at cos = 1/7: its index is the one that would [Kutz21].
+vec3 film_over_metal(float cosine, float thickness, float film_ior, vec3 f0, vec3 edge)
 {
     float film = thickness < 1.0 ? mix(1.0, film_ior, smoothstep(0.0, 1.0, thickness)) : film_ior, inside;
     vec2 top = amplitudes(cosine, film, inside);
     if (inside == 0.0)
         return vec3(1.0);
-    float opd = 2.0 * film * thickness * inside;
-    return clamp(0.5 * (film_sum(top.x, ground, PI, opd) + film_sum(top.y, ground, 0.0, opd)), 0.0, 1.0);
+    float opd = 2.0 * film * thickness * inside, f5 = pow(6.0 / 7.0, 5.0);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 3; i++) {
+        float r = min(f0[i], 0.999), root = sqrt(r), n = mix((1.0 + root) / (1.0 - root), (1.0 - r) / (1.0 + r), edge[i]);
+        float k = sqrt(max((r * (n + 1.0) * (n + 1.0) - (n - 1.0) * (n - 1.0)) / (1.0 - r), 0.0));
+        float nf = n / film, kf = k / film, own = ((nf - 1.0) * (nf - 1.0) + kf * kf) / ((nf + 1.0) * (nf + 1.0) + kf * kf);
+        float dip = (mix(own, 1.0, f5) - edge[i]) * 7.0 / (f5 * 6.0 / 7.0), m = 1.0 - inside, m5 = m * m * m * m * m;
+        vec3 ground = vec3(clamp(mix(own, 1.0, m5) - dip * inside * m5 * m, 0.0, 1.0));
+        vec2 shift = metal_shift(inside, film, n, k);
+        sum[i] = 0.5 * (film_sum(top.x, ground, shift.x, opd)[i] + film_sum(top.y, ground, shift.y, opd)[i]);
+    }
+    return clamp(sum, 0.0, 1.0);
 }

@@ -96,7 +96,7 @@ void add_principled(inout Closures c, float weight, Geo g, vec3 base_color, floa
     bool has_film = film > FILM_CUTOFF;
     float n_film = max(film_ior, 1e-5);
     if (metal > 0.0 && has_film)
-        add_filmed(b, metal * rest.seen, film_over_metal(NoV, film, n_film, f82(clamped, dip, NoV)), NoV, has_bounces);
+        add_filmed(b, metal * rest.seen, film_over_metal(NoV, film, n_film, clamped, f82(clamped, dip, 1.0 / 7.0)), NoV, has_bounces);
     else if (metal > 0.0)
         add_metal(b, metal * rest.seen, clamped, vec3(1.0), dip, NoV, has_bounces);
     c.mean += metal * rest.mean * metal_mean(clamped, dip, vec3(1.0), r, has_bounces);
