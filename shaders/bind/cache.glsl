@@ -6,12 +6,13 @@
 #include "lib/math.glsl"
 
 layout(std430) readonly buffer Surfels { Surfel surfels[]; };
-layout(std430) buffer Cache { vec4 cache[]; };  // five parts, each with an entry for both sides of every surfel
+layout(std430) buffer Cache { vec4 cache[]; };  // six parts, each with an entry for both sides of every surfel
 
 const uint LAMPS = 0u;     // irradiance E from the lamps [W m^-2]
 const uint STILL = 1u;     // irradiance E from what no bounce changes: the world and emissive surfaces
 const uint INDIRECT = 2u;  // irradiance E from all but the lamps: STILL and what other surfels send
 const uint RADIANCE = 3u;  // reflected radiance L [W m^-2 sr^-1], twice: read from one, written to the other
+const uint SENT = 5u;      // radiance of all but what lamps send back from the same side, once no bounce is left
 
 const uint MISSED = 0xfffffffeu;  // the link of a ray that meets nothing at all; of one that meets no surfel it is NOTHING
 
@@ -23,18 +24,18 @@ uint cache_entry(uint part, uint side)
     return part * u_n_sides + side;
 }
 
-// What a surfel looks like lies in the fourth numbers of INDIRECT and LAMPS as well, 12 bits each, in whole numbers that floats
-// hold: where rays end these are read anyway, and to look elsewhere took a graphics card a third more time.
-vec2 look_words(vec4 look)
+// The share of lamps' light that a side reflects, 16 bits a channel, in whole numbers that floats hold: they lie in the fourth
+// numbers of SENT and LAMPS, which rays read anyway. To look elsewhere took a graphics card a third more time.
+vec2 albedo_words(vec3 albedo)
 {
-    uvec4 c = uvec4(round(clamp(look, 0.0, 1.0) * 4095.0));
-    return vec2(c.r | c.a << 12u, c.g | c.b << 12u);
+    uvec3 c = uvec3(round(clamp(albedo, 0.0, 1.0) * 65535.0));
+    return vec2(c.r | (c.b >> 8u) << 16u, c.g | (c.b & 255u) << 16u);
 }
 
-vec4 look_from(vec2 words)
+vec3 albedo_from(vec2 words)
 {
     uvec2 w = uvec2(words);
-    return vec4(w.x & 4095u, w.y & 4095u, w.y >> 12u, w.x >> 12u) / 4095.0;
+    return vec3(w & 65535u, (w.x >> 16u) << 8u | w.y >> 16u) / 65535.0;
 }
 
 const float START = 0.05;  // voxels between a side and its rays: its mean position may lie below a curved surface

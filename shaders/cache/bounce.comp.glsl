@@ -51,7 +51,7 @@ void main()
             E += PI / float(u_n_rays) * sent_from(from, link);
     }
     E += cache[cache_entry(STILL, side)].rgb;
-    cache[cache_entry(INDIRECT, side)].rgb = E;
+    cache[cache_entry(INDIRECT, side)] = vec4(E, 0.0);
     vec4 look = look_of_surfel(side / 2u);
     vec3 L = look.rgb / PI * (cache[cache_entry(LAMPS, side)].rgb + E);
     vec3 change = abs(L - cache[cache_entry(from, side)].rgb);

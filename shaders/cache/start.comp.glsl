@@ -2,7 +2,7 @@
 // Purpose:    the light cache before its first bounce: what was drawn and found, and the first radiance that it makes.
 // Formula:    L = rho / pi E_lamps, of light from the own side: what goes through, is taken from the other one by who reads
 // In:         Drawn, Found, colours of surfels
-// Out:        Cache: LAMPS, STILL, RADIANCE, zeros into INDIRECT; albedos
+// Out:        Cache: LAMPS, STILL, RADIANCE, zeros into INDIRECT
 // Invocation: one side of one surfel
 
 #include "bind/cache.glsl"
@@ -23,9 +23,8 @@ void main()
         return;
     vec3 E = drawn[side].rgb;
     vec4 look = look_of_surfel(side / 2u);
-    vec2 words = look_words(look);
-    cache[cache_entry(LAMPS, side)] = vec4(E, words.y);
+    cache[cache_entry(LAMPS, side)] = vec4(E, 0.0);
     cache[cache_entry(STILL, side)] = vec4(drawn[u_n_sides + side].rgb + found_light[side].rgb, 0.0);
-    cache[cache_entry(INDIRECT, side)] = vec4(vec3(0.0), words.x);
+    cache[cache_entry(INDIRECT, side)] = vec4(0.0);
     cache[cache_entry(RADIANCE, side)] = vec4(look.rgb / PI * E, look.a);
 }

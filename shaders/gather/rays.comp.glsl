@@ -48,12 +48,9 @@ Place end_of(Crossing c, Way way, uint seed, out vec3 L)
     uint side = cache_side(way.o + c.t * way.d, normal_of(c.instance, c.triangle), way.d);
     if (side == NOTHING)
         return at;
-    vec4 indirect = cache[cache_entry(INDIRECT, side)], lamps = cache[cache_entry(LAMPS, side)];
-    vec4 look = look_from(vec2(indirect.w, lamps.w));
-    vec3 reflected = look.rgb / PI * (1.0 - look.a);
-    L = reflected * indirect.rgb;
-    for (int i = 0, n = look.a > 0.0 ? 1 : 0; i < n; i++)  // see ground_factor
-        L += look.rgb / PI * look.a * (cache[cache_entry(INDIRECT, side ^ 1u)].rgb + cache[cache_entry(LAMPS, side ^ 1u)].rgb);
+    vec4 sent = cache[cache_entry(SENT, side)], lamps = cache[cache_entry(LAMPS, side)];
+    vec3 reflected = albedo_from(vec2(sent.w, lamps.w)) / PI;
+    L = sent.rgb;
     if (u_n_tree_draws == 0 && c.t * u_voxels_per_metre > CLOSE) {
         L += reflected * lamps.rgb;
     } else {

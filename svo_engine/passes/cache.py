@@ -25,7 +25,7 @@ from .upload.emission import Emission
 from .upload.placing import Placing
 from .upload.sky import Sky, world_uniforms
 
-PARTS = 5  # vec4 a side, see bind/cache.glsl
+PARTS = 6  # vec4 a side, see bind/cache.glsl
 
 LINK = Pass("cache/link.comp.glsl")
 SKY = Pass("cache/sky.comp.glsl")
@@ -34,6 +34,7 @@ DRAW = Pass("cache/draw.comp.glsl")
 DIRECT = Pass("cache/direct.comp.glsl")
 START = Pass("cache/start.comp.glsl")
 BOUNCE = Pass("cache/bounce.comp.glsl")
+FINISH = Pass("cache/finish.comp.glsl")
 
 TOLERANCE = 5e-3  # of the brightest radiance: bounces end when none changes more
 SPLIT = 4  # invocations that share the rays of a side
@@ -159,6 +160,7 @@ def light_cache(device: Device, colors: Colors, links: Links, found: Found, draw
             break
         device.dispatch(BOUNCE, n_sides, **common, Links=links.links, Changes=changes, u_n_rays=links.n_rays,
                         u_sweep=sweep, u_tolerance=TOLERANCE)
+    device.dispatch(FINISH, n_sides, **common)
     return LightCache(scope, octree, colors, entries, changes, max_bounces)
 
 

@@ -111,4 +111,4 @@ def _rays(gloss: bool, emission: bool, world: bool) -> Iterator[Pass]:
     yield from (path.WEIGH,) if emission and gloss else ()
     yield from (bvh.NEAREST, bvh.SURVIVE, bvh.MERGE, voxelize.COUNT, voxelize.BLOCK_SUMS, voxelize.SCAN)
     yield from (octree.MARK_NODES, octree.MARK, octree.ACCUMULATE, octree.AVERAGE, octree.BLEND)
-    yield from (cache.START, cache.BOUNCE)
+    yield from (cache.START, cache.BOUNCE, cache.FINISH)

@@ -141,8 +141,8 @@ def test_no_edit_compiles_anything_and_all_that_it_runs_was_told(warm, name):
     assert ran(edited_film) - told(scene, replace(SETTINGS, **settings)) == set()
 
 
-COLORS = {"octree/paint", "octree/blend", "cache/start", "cache/bounce"}
-DIRECT = {"cache/direct", "cache/start", "cache/bounce"}
+COLORS = {"octree/paint", "octree/blend", "cache/start", "cache/bounce", "cache/finish"}
+DIRECT = {"cache/direct", "cache/start", "cache/bounce", "cache/finish"}
 GLOW = {"cache/found", "cache/draw"}
 
 # What is redone of what frames keep: links are traced anew by what stops rays or is elsewhere, and by that alone

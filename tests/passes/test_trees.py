@@ -80,7 +80,7 @@ def test_an_edit_of_another_material_bakes_no_tree(session):
 
     session.forget()
     assert "bake/hits" in passes(scenes.WHITE, tree)
-    assert passes(scenes.RED, tree) == {"cache/start", "cache/bounce"}
+    assert passes(scenes.RED, tree) == {"cache/start", "cache/bounce", "cache/finish"}
     edited = passes(scenes.RED, replace(tree, graph=emission((5, 3, 2))))
     assert "bake/hits" in edited and "cache/found" in edited and "cache/link" not in edited
 
