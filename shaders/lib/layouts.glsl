@@ -112,6 +112,8 @@ struct Texture {
     uint closest;
     int channel;
     uint divides;
+    uint share;
+    int share_channel;
 };
 
 struct Picture {

@@ -41,7 +41,8 @@ EMISSION: Fields = (("color", "vec3"), ("color_texture", "int"), ("alpha", "floa
 
 # `scene.types.Texture`; picture: the row of its image
 TEXTURE: Fields = (("u_from_uv", "vec3"), ("picture", "uint"), ("v_from_uv", "vec3"), ("extension", "uint"),
-                   ("closest", "uint"), ("channel", "int"), ("divides", "uint"))
+                   ("closest", "uint"), ("channel", "int"), ("divides", "uint"),
+                   ("share", "uint"), ("share_channel", "int"))
 
 # `scene.types.Image`: texels first_word ... of all words, in `format` FORMAT_*. tile: its UDIM number, or 0; n_tiles:
 # rows from here on that are tiles of the same image

@@ -131,7 +131,9 @@ def assemble(scope: GpuScope, scene: Scene, needs: Needs, trees: Trees, make: Ma
         scene = with_moved(scene, make("displaced", displace, moving).meshes, shown)
     shapes = make("shapes", upload_shapes, scene.meshes, needs.textures)
     placing = make("placing", place, shapes, scene.instances)
-    pictures = make("pictures", upload_pictures, scene.textures, scene.images, tuple(sorted(trees.compiled.images)))
+    shares = tuple(sorted({m.alpha_texture for m in scene.materials if m.is_exact and m.alpha_texture >= 0}))
+    pictures = make("pictures", upload_pictures, scene.textures, scene.images, tuple(sorted(trees.compiled.images)),
+                    shares)
     surfaces = make("surfaces", upload_surfaces, scene.materials, pictures, trees)
     table = make("albedo", albedo, needs.principled or needs.trees, n_kept=2)
     asked = trees.compiled.attributes if trees.passes else None

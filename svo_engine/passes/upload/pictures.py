@@ -26,13 +26,18 @@ class Pictures:
 
 
 def upload_pictures(device: Device, textures: tuple[Texture, ...], images: tuple[Image, ...],
-                    others: tuple[int, ...]) -> Pictures:
+                    others: tuple[int, ...], shares: tuple[int, ...] = ()) -> Pictures:
     """Copy the images that textures read, and `others`, with all of their tiles. All images have a row, and one more is
-    of none.
+    of none; those after it are made of what textures need several channels for.
+
+    shares  the textures of which rays read one number
     """
     scope, used = device.scope(), {*others, *(texture.image for texture in textures)}
     numbers = sorted({i + tile for i in used if i < len(images) for tile in range(images[i].n_tiles)})
-    pictures, limits = fitted([images[i] for i in numbers], room_for(device.calls, device.context.is_software))
+    rows_of_textures = _textures(textures)
+    made = _shares(rows_of_textures, shares, textures, images)
+    used_images = [*(images[i] for i in numbers), *made]
+    pictures, limits = fitted(used_images, room_for(device.calls, device.context.is_software))
     words = [_words(image) for image in pictures]
     firsts = np.cumsum([0] + [-(-len(w) // WIDTH) * WIDTH for w in words])
     n_words = int(firsts[-2]) + len(words[-1]) if words else 0
@@ -40,9 +45,13 @@ def upload_pictures(device: Device, textures: tuple[Texture, ...], images: tuple
     texels = scope.words("texels", n_words)
     for first, part in zip(firsts[:-1], words, strict=True):
         texels.put(int(first), part)
-    rows = np.zeros(len(images) + 1, layouts.dtype(layouts.PICTURE))
-    rows[numbers] = _rows(pictures, firsts)
-    return Pictures(scope, {"Textures": scope.buffer("textures", _textures(textures)),
+    rows = np.zeros(len(images) + 1 + len(made), layouts.dtype(layouts.PICTURE))
+    rows[[*numbers, *range(len(images) + 1, len(rows))]] = _rows(pictures, firsts)
+    for i in shares:
+        if images[textures[i].image].tile:
+            rows_of_textures["share"][i] = len(rows)
+            rows = np.concatenate([rows, _dense(rows, textures[i].image)])
+    return Pictures(scope, {"Textures": scope.buffer("textures", rows_of_textures),
                             "Pictures": scope.buffer("pictures", rows), "u_words": texels}, limits)
 
 
@@ -69,6 +78,47 @@ def halved(pixels: np.ndarray) -> np.ndarray:
             half = sums / 2 if pixels.dtype != np.uint8 else np.floor(sums / 2 + 0.5)
             pixels = np.moveaxis(half.astype(pixels.dtype), 0, axis)
     return np.ascontiguousarray(pixels)
+
+
+def _shares(rows: np.ndarray, shares: tuple[int, ...], textures: tuple[Texture, ...],
+            images: tuple[Image, ...]) -> list[Image]:
+    """Pictures of one number, for those of the textures `shares` that make it of several channels; the rows of all
+    textures say where rays read. Of an image with tiles one channel stands for all.
+    """
+    made: list[Image] = []
+    rows["share"], rows["share_channel"] = rows["picture"], np.where(rows["channel"] < 0, 1, rows["channel"])
+    for i in shares:
+        texture = textures[i]
+        image = images[texture.image]
+        divides = texture.divides and image.is_associated and texture.channel < 3
+        if (texture.channel < 0 or divides) and not image.tile:
+            rows["share"][i], rows["share_channel"][i] = len(images) + 1 + len(made), 0
+            made.append(_share(image, texture.channel, bool(divides)))
+    return made
+
+
+def _dense(rows: np.ndarray, first: int) -> np.ndarray:
+    """The rows of an image's tiles from 1001 on, with rows of nothing for those that are not there."""
+    own = rows[first:first + int(rows["n_tiles"][first])]
+    dense = np.zeros(int(own["tile"].max()) - 1000, rows.dtype)
+    dense["tile"] = own["tile"][0]
+    dense[own["tile"] - 1001] = own
+    dense["n_tiles"] = len(dense)
+    return dense
+
+
+def _share(image: Image, channel: int, divides: bool) -> Image:
+    """What a material reads of `image` as a number, 8 bits."""
+    pixels = image.pixels.astype("f4") / (255 if image.pixels.dtype == np.uint8 else 1)
+    rgb = pixels[..., :3]
+    if divides:
+        alpha = pixels[..., 3:]
+        rgb = rgb / np.where(alpha > 0, alpha, 1)
+    if image.is_srgb:
+        rgb = np.where(rgb <= 0.04045, rgb / 12.92, ((np.maximum(rgb, 0) + 0.055) / 1.055) ** 2.4)
+    value = rgb @ np.array([0.2126, 0.7152, 0.0722], "f4") if channel < 0 else rgb[..., channel]
+    grey = np.round(np.clip(np.nan_to_num(value), 0, 1) * 255).astype("u1")
+    return Image(image.name, np.repeat(grey[..., None], 4, 2))
 
 
 def _words(image: Image) -> np.ndarray:
