@@ -74,8 +74,8 @@ def test_rays_tell_what_the_octree_takes_and_what_a_dense_grid_would(saved, tmp_
                  *quick]) == 0
     counts = json.loads((tmp_path / "stats.json").read_text())["counts"]
     n_bytes, n_dense = counts["octree bytes"], counts["dense bytes"]
-    assert n_dense == 3 * 32**3 * 48
-    assert 48 * counts["surfels"] < n_bytes < 100 * counts["surfels"] < n_dense / 10
+    assert n_dense == 3 * 32**3 * 64
+    assert 64 * counts["surfels"] < n_bytes < 100 * counts["surfels"] < n_dense / 10
     rows = {line[2:].split("  ")[0]: line.split()[-2:] for line in capsys.readouterr().out.splitlines()[1:]}
     assert rows["octree size"] == [f"{n_bytes / 2**20:.1f}", "MiB"]
     assert rows["dense size"] == [f"{n_dense / 2**20:.1f}", "MiB"]
